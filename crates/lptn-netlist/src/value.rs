@@ -78,6 +78,12 @@ impl Elaboration<'_> {
     }
 }
 
+/// The text of an expression, with every instance of its families.
+pub(crate) fn whole(expression: &Expression) -> String {
+    let text = expression.text().trim();
+    if text.contains("[*]") { expression.meant().trim().to_owned() } else { text.to_owned() }
+}
+
 /// The argument of a mean over time, if an expression as a whole is one: `mean(x)`, as in
 /// `[sweep]`. The mean of several values is a value of each moment.
 pub(crate) fn mean_over_time(expression: &Expression) -> Option<Expression> {

@@ -18,6 +18,7 @@ mod events;
 mod exact;
 mod exact_streams;
 mod failures;
+mod families;
 mod features;
 mod folds;
 mod guard;

@@ -60,3 +60,17 @@ fn temperatures_on_the_scale_have_no_sum() {
     let found = expression.with_members(&members).compile(&Cells, None).unwrap_err();
     assert!(found.iter().next().unwrap().to_string().contains("added to another one"), "{found:?}");
 }
+
+#[test]
+fn the_text_names_every_instance() {
+    let meant = |text: &str, members: &dyn Fn(&str) -> Option<Vec<String>>| {
+        Expression::parse(text).unwrap().with_members(members).meant()
+    };
+    let all = "2 * max(cell[1].P - 1, cell[2].P - 1, cell[3].P - 1, x)";
+    assert_eq!(meant("2 * max(cell[*].P - 1, x)", &members), all);
+    let one = |name: &str| Some(vec![name.replace("[*]", "[1]")]);
+    assert_eq!(meant("1 + max(cell[*].P)", &one), "1 + cell[1].P");
+    // the innermost call takes a family
+    let inner = meant("max(mean(cell[*].P), x)", &members);
+    assert_eq!(inner, "max(mean(cell[1].P, cell[2].P, cell[3].P), x)");
+}

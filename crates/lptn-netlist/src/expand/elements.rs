@@ -1,7 +1,7 @@
 //! Nodes, and all elements between and on them.
 
 use lptn_laws::Kind;
-use lptn_network::{Bound, Conductor, Item, Law, LimitSeverity, Lump, Size, Source, Value};
+use lptn_network::{Bound, Conductor, Item, Law, Limit, LimitSeverity, Lump, Size, Source, Value};
 use lptn_units::{Dimension, Type, format_number};
 
 use super::Writer;
@@ -149,7 +149,7 @@ impl Writer<'_> {
         let mut section = TomlFields::default();
         for limit in self.network.limits() {
             let mut fields = TomlFields::default();
-            fields.put("of", string(&limit.text));
+            fields.put("of", string(&whole(limit)));
             let bound = match limit.bound {
                 Bound::Below => "below",
                 Bound::Above => "above",
@@ -161,5 +161,14 @@ impl Writer<'_> {
             section.put(&limit.name, fields.inline());
         }
         self.section("limit", &section);
+    }
+}
+
+/// The limited quantity with every instance of its families.
+fn whole(limit: &Limit) -> String {
+    match (&limit.of, limit.text.contains("[*]")) {
+        (Value::Expression(program), true) if limit.of_mean => format!("mean({})", program.text()),
+        (Value::Expression(program), true) => program.text().trim().to_owned(),
+        _ => limit.text.clone(),
     }
 }

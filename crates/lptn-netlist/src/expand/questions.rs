@@ -5,7 +5,7 @@ use crate::run::{OutputPlan, RUN};
 use crate::setting::Setting;
 use crate::toml_text::{TomlFields, quantity, strings};
 use crate::uncertainty::UNCERTAINTY;
-use lptn_network::{IntegratorChoice, OutputTimes, RunSettings};
+use lptn_network::{IntegratorChoice, OutputTimes, RunSettings, Value};
 use lptn_units::{Dimension, Type};
 
 impl Writer<'_> {
@@ -33,7 +33,12 @@ impl Writer<'_> {
         let mut reports = TomlFields::default();
         let named = |name: &str| self.network.named_values().iter().any(|value| value.name == name);
         for report in self.network.reports().iter().filter(|report| !named(&report.name)) {
-            reports.word(&report.name, &report.text);
+            let text = match &report.value {
+                // every instance of a family
+                Value::Expression(program) if report.text.contains("[*]") => program.text(),
+                _ => &report.text,
+            };
+            reports.word(&report.name, text);
         }
         if !reports.is_empty() {
             fields.put("report", reports.inline());

@@ -84,7 +84,12 @@ impl<'a> Elaboration<'a> {
             }
             Some(Given::Expression(program)) => {
                 let (ty, text) = (program.ty(), program.text().trim().to_owned());
-                let text = if of_mean { format!("mean({text})") } else { text };
+                let text = match &raw.kind {
+                    // a family is shown as it is written
+                    RawKind::String { text, .. } if text.contains("[*]") => text.trim().to_owned(),
+                    _ if of_mean => format!("mean({text})"),
+                    _ => text,
+                };
                 (program.into(), Some(ty), text, of_mean)
             }
             None => nothing(),

@@ -13,7 +13,7 @@ use crate::setting::Setting;
 use crate::size::{
     Catalogue, Goal, Objective, Over, Requirement, SIZE, SizeRange, SizeStudy, VARY,
 };
-use crate::value::mean_over_time;
+use crate::value::{mean_over_time, whole};
 use crate::work::Elaboration;
 
 impl<'a> Elaboration<'a> {
@@ -198,7 +198,7 @@ impl<'a> Elaboration<'a> {
             Comparison::Greater | Comparison::GreaterEqual => (right, left),
             Comparison::Equal | Comparison::NotEqual => return self.no_comparison(place),
         };
-        Some(Requirement { text: expression.text().trim().to_owned(), ty, low, high, of_mean })
+        Some(Requirement { text: whole(&expression), ty, low, high, of_mean })
     }
 
     /// The arguments of both sides if they are means over time, and true if they are. A mean may be

@@ -9,6 +9,7 @@ use lptn_units::{Dimension, Expression, Type};
 use crate::place::{Given, Place, Text, Wanted};
 use crate::raw::RawEntry;
 use crate::sweep::SweepOver;
+use crate::value::whole;
 use crate::work::Elaboration;
 
 /// A functional of a quantity over a run or a cycle.
@@ -120,7 +121,7 @@ impl<'a> Elaboration<'a> {
             }
             Text::Expression(expression) => {
                 let taken = self.taken(place, &expression, over)?;
-                (expression.text().trim().to_owned(), taken)
+                (whole(&expression), taken)
             }
         };
         let (name, span) = (entry.key.clone(), entry.value.span.clone());

@@ -16,7 +16,7 @@ const STAR: &str = "[*]";
 impl Expression {
     /// The same expression with one argument for each instance where an argument of `min`, `max`,
     /// `mean` or `sum` names a family, `cell[*].T`. All families of one argument take the same
-    /// index. A family of one leaves its argument alone.
+    /// index. A family of one leaves its argument alone. The innermost of several calls takes a family.
     ///
     /// `members` gives the names of a family. A family that it does not know, or several of
     /// different size, stay as they are.
@@ -25,9 +25,14 @@ impl Expression {
         if !self.tree.nodes().any(starred) {
             return Cow::Borrowed(self);
         }
-        let mut copy = Copy { from: &self.tree, members, to: Tree::default(), index: None };
+        let (text, written) = (self.text.as_str(), Vec::new());
+        let mut copy =
+            Copy { from: &self.tree, text, members, to: Tree::default(), written, index: None };
         copy.node(self.tree.root());
-        Cow::Owned(Self { tree: copy.to, ..self.clone() })
+        let mut whole = Self { tree: copy.to, ..self.clone() };
+        whole.renamed.extend(copy.written);
+        whole.renamed.sort_by_key(|(span, _)| span.start);
+        Cow::Owned(whole)
     }
 }
 
@@ -37,8 +42,11 @@ fn is_family(node: &Node) -> bool {
 
 struct Copy<'a> {
     from: &'a Tree,
+    text: &'a str,
     members: Members<'a>,
     to: Tree,
+    /// The places of arguments with all that stands there now.
+    written: Vec<(Range<usize>, String)>,
     /// The member that families are replaced by.
     index: Option<usize>,
 }
@@ -67,7 +75,13 @@ impl Copy<'_> {
                     false => arguments.iter().map(|&argument| self.node(argument)).collect(),
                 };
                 match arguments[..] {
-                    [one] if family => return one,
+                    [one] if family => {
+                        // the one member stands alone, without the call
+                        if let Some((_, text)) = self.written.pop() {
+                            self.written.push((from.span(id), text));
+                        }
+                        return one;
+                    }
                     _ => {
                         let (function, name_span) = (function.clone(), name_span.clone());
                         Node::Call { function, name_span, arguments }
@@ -97,20 +111,43 @@ impl Copy<'_> {
                 all.push(self.node(argument));
             }
             self.index = None;
+            let each: Vec<String> = (0..count).map(|index| self.member(argument, index)).collect();
+            self.written.push((self.from.span(argument), each.join(", ")));
         }
         all
     }
 
-    /// The number of members of all families below a node; `None` without families.
+    /// The text of an argument for one member of its families.
+    fn member(&self, root: Id, index: usize) -> String {
+        let whole = self.from.span(root);
+        let (mut text, mut at) = (String::new(), whole.start);
+        for id in self.from.first(root)..=root {
+            let Node::Name(name) = self.from.node(id) else { continue };
+            let span = self.from.span(id);
+            let member = (self.members)(name).and_then(|names| names.get(index).cloned());
+            text += self.text.get(at..span.start).unwrap_or_default();
+            text += member.as_ref().unwrap_or(name);
+            at = span.end;
+        }
+        text + self.text.get(at..whole.end).unwrap_or_default()
+    }
+
+    /// The number of members of all families below an argument; `None` without families, or if
+    /// there are others inside a further `min`, `max`, `mean` or `sum`.
     fn count(&self, root: Id) -> Option<usize> {
-        let below = (self.from.first(root)..=root).map(|id| self.from.node(id));
-        let families = below.filter(|node| is_family(node)).filter_map(|node| match node {
+        let nodes = || (self.from.first(root)..=root).map(|id| self.from.node(id));
+        let takes = |node: &Node| match node {
+            Node::Call { function, .. } => takes_families(function),
+            _ => false,
+        };
+        let families = nodes().filter(|node| is_family(node)).filter_map(|node| match node {
             Node::Name(name) => Some((self.members)(name).map(|names| names.len())),
             _ => None,
         });
         let counts: Vec<Option<usize>> = families.collect();
         let first = (*counts.first()?)?;
-        counts.iter().all(|count| *count == Some(first)).then_some(first).filter(|count| *count > 0)
+        let even = counts.iter().all(|count| *count == Some(first));
+        (even && first > 0 && !nodes().any(takes)).then_some(first)
     }
 }
 
