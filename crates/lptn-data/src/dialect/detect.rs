@@ -52,7 +52,7 @@ impl<'t> Sheet<'t> {
         let rows: Vec<&Vec<&str>> = tail.iter().filter(|cells| cells.len() == width).collect();
         let values = |column: usize| rows.iter().filter(|row| is_value(row[column])).count();
         let holes = |column: usize| rows.iter().filter(|row| is_hole(row[column])).count();
-        // more than half of the rows; of two lines, one may be the header
+        // values in more than half of the rows; of two lines, one may be the header
         let most = rows.len().saturating_sub(usize::from(rows.len() == 2));
         let columns: Vec<usize> =
             (0..width).filter(|&c| values(c) > 0 && 2 * (values(c) + holes(c)) > most).collect();
