@@ -33,7 +33,7 @@ impl Structure {
                     (Some(count), Some("*")) => {
                         let help = format!(
                             "name one, {}; all of them may be in `of` of a limit, in `into` of a \
-                             source and in `select`",
+                             source, at the ends of a path and in `select`",
                             range((&full, tail), count)
                         );
                         return wrong("a pattern cannot be used here".to_owned(), help);
