@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    Network, NodeId, ParameterId, RunSettings, SignalId, Temperature, Time, Variable,
+    Network, NodeId, ParameterId, RunSettings, SignalId, Temperature, Time, UnknownName, Variable,
 };
 use lptn_solve::{
     ControlState, EventIndicator, Proceed, RateSlopes, Rates, Solution, State, StateRates,
@@ -127,6 +127,22 @@ impl Simulation {
         match self.network.item(name) {
             Ok(_) => Err(SimulationError::NotAnInput(name.to_owned())),
             Err(_) => Err(unknown.into()),
+        }
+    }
+
+    /// The present value of a state of `[state]` in SI units, an absolute temperature in K.
+    ///
+    /// # Errors
+    /// [`SimulationError::Unknown`].
+    pub fn state(&self, name: &str) -> Result<f64, SimulationError> {
+        let network = self.network();
+        match network.state(name) {
+            Some(id) => Ok(network.state_value(id, &self.temperatures)),
+            None => {
+                let names = network.states().iter().map(|state| state.name.as_str());
+                let suggestion = lptn_units::suggest(name, names).map(str::to_owned);
+                Err(UnknownName { name: name.to_owned(), suggestion }.into())
+            }
         }
     }
 

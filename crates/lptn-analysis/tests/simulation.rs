@@ -3,8 +3,9 @@
 use lptn_analysis::{Simulation, SimulationError};
 use lptn_network::{
     Conductance, Context, HeatCapacity, HeatFlow, IntegratorChoice, Network, NetworkBuilder,
-    OutputTimes, RunSettings, Temperature, Time,
+    OutputTimes, RunSettings, StateLaw, Temperature, Time,
 };
+use lptn_units::Expression;
 
 const C: f64 = 1000.0;
 const ZERO: f64 = 273.15;
@@ -115,4 +116,31 @@ fn it_is_sent_to_another_thread() {
         expected = after(expected, 10.0, power, 2.0);
     }
     assert!((stepped.join().unwrap() - expected).abs() < 1e-3, "{expected}");
+}
+
+/// A battery of 2 Ah that 1 A discharges: `2 - t / 3600 s` in Ah, and the current set from outside.
+#[test]
+fn a_state_is_read_by_its_name() {
+    let quantity = |text: &str| lptn_units::parse_quantity(text, None).unwrap();
+    let mut b = NetworkBuilder::new();
+    b.parameter("I", quantity("1 A"));
+    let full = quantity("2 A h");
+    let id = b.state("charge", full.ty, full.value);
+    let (start, empty) =
+        (Expression::literal(full.value, full.ty), Expression::literal(0.0, full.ty));
+    let (rate, bounds) = (Expression::parse("-I").unwrap(), [Some(&empty), None]);
+    b.state_law(id, StateLaw { start: &start, rate: &rate, bounds }).unwrap();
+    let cell = b.node("cell", HeatCapacity(C), Temperature::celsius(20.0));
+    let air = b.boundary("air", Temperature::celsius(20.0));
+    b.resistor("skin", cell, air, Conductance(0.1));
+    let network = b.build().unwrap();
+    let mut simulation = Simulation::new(&network, &settings()).unwrap();
+    let charge = |simulation: &Simulation| simulation.state("charge").unwrap() / 3600.0;
+    assert!((charge(&simulation) - 2.0).abs() < 1e-12);
+    simulation.advance(Time(1800.0), &[]).unwrap();
+    assert!((charge(&simulation) - 1.5).abs() < 1e-6);
+    simulation.set("I", 4.0).unwrap();
+    simulation.advance(Time(2700.0), &[]).unwrap();
+    assert!((charge(&simulation) - 0.5).abs() < 1e-6);
+    assert!(simulation.state("charg").is_err());
 }

@@ -22,7 +22,7 @@ pub struct Profile<S> {
 }
 
 impl<S: Scalar> Profile<S> {
-    /// That of gears without shift, with addenda of one module, at the reference centre distance.
+    /// The pair of gears without shift, with addenda of one module, at the reference centre distance.
     pub fn standard() -> Self {
         let zero = S::from_f64(0.0);
         Self { shifts: [zero; 2], addenda: [None; 2], shortening: zero, distance: None }

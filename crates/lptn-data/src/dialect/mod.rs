@@ -17,7 +17,7 @@ use crate::text::CsvText;
 pub(crate) use detect::{bracketless, detect};
 pub(crate) use sample::is_value;
 
-/// How the columns, numbers and lines of a file are written.
+/// The form of the columns, numbers and lines of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Dialect {
     /// The sign between columns.

@@ -1,6 +1,6 @@
 //! Names and the checks of them.
 
-use lptn_units::RESERVED;
+use lptn_units::{RESERVED, is_function};
 
 use super::NetworkBuilder;
 use crate::build_error::BuildError;
@@ -8,6 +8,11 @@ use crate::error::BuildErrorKind;
 use crate::id::{End, Item};
 use crate::names::is_path;
 use crate::parts::label::is_numbered;
+
+/// True for a table with the name of a function.
+fn is_called(name: &str, item: Item) -> bool {
+    matches!(item, Item::Table(_)) && is_function(name)
+}
 
 impl NetworkBuilder {
     pub(crate) fn register(&mut self, name: &str, item: Item) {
@@ -42,7 +47,7 @@ impl NetworkBuilder {
     pub(crate) fn check_name(&mut self, name: &str, item: Item) {
         if !is_path(name) {
             self.error(name, BuildErrorKind::BadName { item });
-        } else if is_numbered(name) || RESERVED.contains(&name) {
+        } else if is_numbered(name) || RESERVED.contains(&name) || is_called(name, item) {
             self.error(name, BuildErrorKind::ReservedName { item });
         }
     }

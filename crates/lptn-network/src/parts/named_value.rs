@@ -1,4 +1,4 @@
-//! Named values: expressions that stand wherever their name is written.
+//! Named values: expressions in the place of their names.
 
 use std::sync::Arc;
 

@@ -1,6 +1,6 @@
 //! The rings that a round body is cut into.
 //!
-//! The nodes of n rings stand at the middles of n equal widths, `rho_i = r_in + (i - 1/2) h` with
+//! The nodes of n rings are at the middles of n equal widths, `rho_i = r_in + (i - 1/2) h` with
 //! `h = (r_out - r_in) / n`. Two rings meet at the radius r between their nodes with
 //!
 //! ```text

@@ -45,14 +45,14 @@ struct Copy<'a> {
     text: &'a str,
     members: Members<'a>,
     to: Tree,
-    /// The places of arguments with all that stands there now.
+    /// The places of arguments, and the text of their members.
     written: Vec<(Range<usize>, String)>,
     /// The member that families are replaced by.
     index: Option<usize>,
 }
 
 impl Copy<'_> {
-    /// Copies a node behind its operands; its new index.
+    /// Copies a node after its operands; its new index.
     fn node(&mut self, id: Id) -> Id {
         let from = self.from;
         let new = match from.node(id) {
@@ -76,7 +76,7 @@ impl Copy<'_> {
                 };
                 match arguments[..] {
                     [one] if family => {
-                        // the one member stands alone, without the call
+                        // one member replaces the call
                         if let Some((_, text)) = self.written.pop() {
                             self.written.push((from.span(id), text));
                         }

@@ -14,7 +14,7 @@ use crate::format_number;
 use crate::types::Type;
 
 impl Expression {
-    /// The same expression with the meaning of each name that stands for an expression in `scope`.
+    /// The same expression with the meaning of each name that has one in `scope`.
     /// Every place inside such a meaning is that of the name.
     pub fn inlined(&self, scope: &dyn Scope) -> Cow<'_, Self> {
         let stands = |(node, _): &(Node, Range<usize>)| match node {
@@ -83,7 +83,7 @@ impl Expression {
         Self { tree, ..self.clone() }
     }
 
-    /// The value of type `ty` that a plain temperature difference `name` stands for: `scale` SI
+    /// The value of type `ty` that a plain temperature difference `name` represents: `scale` SI
     /// units for 1 K. An absolute temperature is that number of kelvin.
     ///
     /// `None` if the dimension of the scale has exponents that are too large.

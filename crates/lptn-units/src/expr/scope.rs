@@ -7,10 +7,11 @@ use crate::table::TableSymbol;
 use crate::types::Type;
 
 /// Names with a fixed meaning, which no parameter, signal, control or table may take: the time `t`,
-/// `pi`, the temperatures of the element at hand, and all functions.
+/// `pi`, the temperatures of the element at hand, and all functions but `sum`, which only a table may
+/// not be called.
 pub const RESERVED: &[&str] = &[
     "t", "pi", "T", "T_from", "T_to", "T_mean", "dT", "abs", "min", "max", "mean", "sqrt", "exp",
-    "ln", "sin", "cos", "tanh", "if", "kelvin", "absolute", "sum",
+    "ln", "sin", "cos", "tanh", "if", "kelvin", "absolute",
 ];
 
 /// A name in scope: the slot of its value, and its type.
@@ -46,7 +47,7 @@ pub trait Scope {
     /// Every name, for "did you mean"; tables are not among them.
     fn names(&self) -> Vec<String>;
 
-    /// The expression that a name stands for, if any. Its own names stand for no others.
+    /// The expression that a name represents, if any. Its own names represent no others.
     fn meaning(&self, name: &str) -> Option<Arc<Expression>> {
         let _ = name;
         None
