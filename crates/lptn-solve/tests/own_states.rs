@@ -186,6 +186,33 @@ fn a_state_stops_at_its_bound() {
     near(steady[network.node("pot").unwrap()], 20.0 + ZERO, 1e-6);
 }
 
+/// Names of states, parameters and bounds that are also used behind the scenes.
+#[test]
+fn a_state_may_have_any_name() {
+    for name in ["x", "own", "rate", "scale", "one", "energy", "most", "least", "up", "stopped"] {
+        let text = format!(
+            "format = 1\n[param]\nk = \"0.2 g/s\"\n[node]\npot = {{ C = \"2 kJ/K\", T0 = \"20 degC\" }}\n\
+             [boundary]\nroom = {{ T = \"20 degC\" }}\n[resistor]\nloss = {{ from = \"pot\", to = \"room\", G = \
+             \"10 W/K\" }}\n[state]\n{name} = {{ rate = \"-k\", start = \"60 g\", min = \"0 g\", max = \"60 g\" }}\n\
+             other = {{ rate = \"{name} / 1 [s]\", start = \"0 kg\", max = \"1 kg\", size = \"1 kg\" }}\n"
+        );
+        let solution = run(&network(&text), &[0.0, 10.0, 300.0, 400.0], 1e-5);
+        for (found, right) in column(&solution, name).iter().zip([60.0, 58.0, 0.0, 0.0]) {
+            near(*found, right, 1e-4);
+        }
+        // 60 g falling by 0.2 g/s for 10 s: 590 g s
+        near(column(&solution, "other")[1], 0.59, 1e-5);
+        // a parameter of that name as a bound
+        let text = text
+            .replace(&format!("{name} = {{ rate"), "fuel = { rate")
+            .replace(&format!("\"{name} / 1 [s]\""), "\"fuel / 1 [s]\"")
+            .replace("[param]\n", &format!("[param]\n{name} = \"10 g\"\n"))
+            .replace("min = \"0 g\"", &format!("min = \"{name}\""));
+        let solution = run(&network(&text), &[0.0, 400.0], 1e-5);
+        near(column(&solution, "fuel")[1], 10.0, 1e-4);
+    }
+}
+
 #[test]
 fn a_state_that_changes_whatever_happens_has_no_steady_state() {
     let text = "format = 1\n[node]\npot = { C = \"2 kJ/K\", T0 = \"20 degC\" }\n[boundary]\nroom = { T = \"20 \

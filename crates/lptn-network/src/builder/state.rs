@@ -108,9 +108,9 @@ impl NetworkBuilder {
             bound.map(|bound| bound.compile(&scope, Some(ty))).transpose()
         };
         let bounds = [bound(law.bounds[0])?, bound(law.bounds[1])?];
-        let inner = law.start.inside(&in_kelvin(ty, scale), "x");
+        let inner = law.start.inside(&in_kelvin(ty, scale), HOLE);
         let inner = inner.compile(&self.scope(Context::Time), None)?;
-        let rate = law.rate.inside(&as_heat(&name, ty, scale, law.bounds), "x");
+        let rate = law.rate.inside(&as_heat(&name, ty, scale, law.bounds), HOLE);
         let heat = rate.compile(&self.scope(Context::Control), Some(POWER))?;
         let node = self.parts.states[id.index()].node;
         self.parts.nodes[node.index()].initial = Some(Value::Expression(Arc::new(inner)));
@@ -178,9 +178,20 @@ fn constant(program: Program) -> Value {
     }
 }
 
+/// The place of the rate or of the start in a template.
+const HOLE: &str = "x?";
+
+/// An expression with others in the place of its names. Its own names become ones that cannot be
+/// written, so that those of the others are never meant.
 fn template(text: &str, parts: &[(&str, &Expression)]) -> Expression {
+    let hidden = |name: &str| format!("{name}?");
     let template = Expression::parse(text);
-    template.unwrap_or_else(|_| Expression::literal(f64::NAN, Type::SCALAR)).with(parts)
+    let template = template.unwrap_or_else(|_| Expression::literal(f64::NAN, Type::SCALAR));
+    let parts: Vec<(String, &Expression)> =
+        parts.iter().map(|(name, part)| (hidden(name), *part)).collect();
+    let parts: Vec<(&str, &Expression)> =
+        parts.iter().map(|(name, part)| (name.as_str(), *part)).collect();
+    template.renamed(&|name| Some(hidden(name))).with(&parts)
 }
 
 /// The temperature of the node of a state in K, as a difference, for the value `x`.
