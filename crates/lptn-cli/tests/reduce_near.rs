@@ -75,3 +75,31 @@ fn what_is_about_whole_runs_is_refused_near_a_state() {
         .says("run::time");
     assert_eq!(folder.files(), ["glow.toml"]);
 }
+
+/// A body of 100 J/K and 1 W/K with a lid of 10 J/K; two states of no heat capacity.
+const WATCHED: &str = "format = 1\n[boundary]\nroom = { T = \"20 degC\" }\n[node]\npot = { C = \"100 \
+    J/K\", T0 = \"20 degC\" }\nlid = { C = \"10 J/K\", T0 = \"20 degC\" }\n[resistor]\nloss = { from = \
+    \"pot\", to = \"room\", G = \"1 W/K\" }\nseal = { from = \"pot\", to = \"lid\", G = \"1 W/K\" }\n\
+    [state]\nfelt = { rate = \"(pot.T - felt) / 5 [s]\", start = \"20 degC\" }\n[source]\ns = { into = \
+    \"pot\", P = \"5 W\" }\n[run]\nstop = \"100 s\"\n";
+
+#[test]
+fn states_have_no_capacity() {
+    let folder = Folder::with("watched.toml", WATCHED);
+    let json = folder.json("reduce watched.toml --port pot --at steady").exits(0).json();
+    assert!((scalar(&json["C_eq"]["sum"]) - 110.0).abs() < 1e-9, "{}", json["C_eq"]);
+    assert!((scalar(&json["R_eq"]) - 1.0).abs() < 1e-9, "{}", json["R_eq"]);
+}
+
+/// Under an integral, heat into the body leaves its steady temperature as it is.
+#[test]
+fn a_port_that_a_controller_keeps_is_refused() {
+    let controlled = WATCHED.replace("\"5 W\"", "\"duty\"")
+        + "[controller.duty]\nsense = \"lid\"\n\
+        setpoint = \"40 degC\"\nK_p = \"1 W/K\"\nK_i = \"0.01 W/(K s)\"\nmin = \"0 W\"\nmax = \"100 W\"\n";
+    let folder = Folder::with("controlled.toml", &controlled);
+    for port in ["pot", "lid"] {
+        let args = ["reduce", "controlled.toml", "--port", port, "--at", "steady"];
+        folder.run(&args).exits(2).says("reduce::held").says("choose another port");
+    }
+}

@@ -57,11 +57,12 @@ impl Clock {
             last: None,
             days: 0,
         };
-        let beside = [index.checked_sub(1), Some(index + 1)].into_iter().flatten();
-        let other = beside.filter_map(|at| Some((at, Moment::of(cell(at))?.with(moment)?))).next();
-        if let Some((at, whole)) = other {
+        if let Some((at, whole)) = partner(head, first, (index, moment))? {
             clock.parts.push(at);
             clock.first = whole;
+        }
+        if let Some(problem) = short(&clock, (head, index), cell(index)) {
+            return Err(problem);
         }
         let behind = clock.parts.iter().max().map_or(0, |last| last + 1);
         let is_part = |header: &crate::head::Header| header.name == "ms";
@@ -161,6 +162,12 @@ impl Clock {
             offset: moment.offset.or(self.first.offset),
             ..moment
         });
+        // the rows show their order by their form, and the start has another one
+        let unknown = |m: &Moment| {
+            let formed = self.first.date.is_some_and(|date| date.order.is_some());
+            options.dates.is_none() && formed && m.date.is_some_and(|date| date.order.is_none())
+        };
+        let moment = moment.filter(|moment| !unknown(moment));
         let found = moment.and_then(|moment| self.nanoseconds(moment));
         found.map(Some).ok_or_else(|| {
             let place = row(first.clone(), &text.text).place(head.file(), self.parts[0]);
@@ -171,6 +178,62 @@ impl Clock {
                 .help(format!("write it like this: `start = \"{shown}\"`"))
         })
     }
+}
+
+/// The other column of a moment: the one clock of a date, or the one date of the only clock.
+fn partner(
+    head: &Head,
+    first: &csv::StringRecord,
+    (index, moment): (usize, Moment),
+) -> Result<Option<(usize, Moment)>, Diagnostic> {
+    let bare = |at: &usize| *at != index && head.columns[*at].unit.is_none();
+    let all = (0..head.columns.len()).filter(bare);
+    let found = all.filter_map(|at| Some((at, Moment::of(first.get(at)?.trim())?)));
+    let (dates, clocks): (Vec<_>, Vec<_>) = found
+        .filter(|(_, other)| other.date.is_some() != other.clock.is_some())
+        .partition(|(_, other)| other.date.is_some());
+    let partners = match (moment.date.is_some(), moment.clock.is_some()) {
+        (true, false) => clocks,
+        // of several clocks one counts from a start, as `Elapsed` does
+        (false, true) if clocks.is_empty() => dates,
+        _ => return Ok(None),
+    };
+    match partners[..] {
+        [(at, other)] => Ok(moment.with(other).map(|whole| (at, whole))),
+        [(a, _), (b, _), ..] => Err(two_clocks(head, index, [a, b])),
+        [] => Ok(None),
+    }
+}
+
+fn two_clocks(head: &Head, index: usize, [a, b]: [usize; 2]) -> Diagnostic {
+    let name = |at: usize| head.columns[at].name.as_str();
+    let message = format!(
+        "`{}` and `{}` may both belong to `{}`: it is not known which is the time of day",
+        name(a),
+        name(b),
+        name(index)
+    );
+    Diagnostic::error(head.codes().dates, message)
+        .at(head.columns[index].place.clone(), "the dates")
+        .help(format!(
+            "name the column of the clock times as the times, such as `{}`; a clock may pass \
+             midnight once between two rows",
+            name(b)
+        ))
+}
+
+/// The error of a clock of two numbers and no date.
+fn short(clock: &Clock, (head, index): (&Head, usize), cell: &str) -> Option<Diagnostic> {
+    let two = cell.matches(':').count() == 1 && !cell.contains(|c: char| c.is_alphabetic());
+    if clock.first.date.is_some() || !two {
+        return None;
+    }
+    let message = format!("`{cell}` may be hours and minutes, or minutes and seconds");
+    Some(
+        Diagnostic::error(head.codes().dates, message)
+            .at(head.columns[index].place.clone(), "the times")
+            .help("write all three, `00:05:00`, or a column of numbers with a unit of time"),
+    )
 }
 
 /// The dates of a column: how many of them allow which order.
@@ -190,19 +253,20 @@ fn order(
     options: &CsvOptions,
 ) -> Result<DateOrder, Diagnostic> {
     let mut dates = Dates::default();
-    if let Some(order) = options.dates {
-        return Ok(order);
-    }
+    let counts = options.start.as_deref().and_then(Moment::of).is_some_and(|s| s.date.is_some());
     for cells in head.reader(&text.text) {
         let date = parts.iter().find_map(|&part| {
             let date = Moment::of(cells.get(part).unwrap_or_default().trim())?.date?;
             Some((date, part))
         });
         let Some((date, part)) = date else { continue };
-        if date.order.is_some() {
-            return Ok(DateOrder::DayFirst); // its form shows it
-        }
         let place = || row(cells.clone(), &text.text).place(head.file(), part);
+        match (date.order, options.dates) {
+            (Some(form), Some(given)) if form != given => return Err(otherwise(head, place())),
+            (_, Some(given)) => return Ok(given),
+            (Some(_), None) => return Ok(DateOrder::DayFirst), // its form shows it
+            (None, None) => {}
+        }
         let first = dates.first.get_or_insert_with(|| (date, place())).0;
         dates.differ |= date != first;
         let [a, b, _] = date.numbers;
@@ -211,34 +275,54 @@ fn order(
             break;
         }
     }
-    dates.order().ok_or_else(|| dates.undecided(head))
+    dates.order(counts).ok_or_else(|| dates.undecided(head))
+}
+
+/// The error of an order that the form of the dates contradicts.
+fn otherwise(head: &Head, place: Span) -> Diagnostic {
+    Diagnostic::error(head.codes().dates, "`dates` is not the order in which the dates are written")
+        .at(place, "the first date")
+        .help(
+            "dates with points begin with the day, dates with four digits first with the year: \
+             leave `dates` out, or write the dates in another form",
+        )
 }
 
 impl Dates {
-    fn order(&self) -> Option<DateOrder> {
+    /// The order; `counts` if a given start has a date, so that the day itself matters.
+    fn order(&self, counts: bool) -> Option<DateOrder> {
         let Some((first, _)) = &self.first else { return Some(DateOrder::DayFirst) };
         match self.above {
             [false, true] => Some(DateOrder::MonthFirst),
             [true, false] if !first.short => Some(DateOrder::DayFirst),
             // the same day in every row: its order has no effect on differences
-            [false, false] if !self.differ => Some(DateOrder::DayFirst),
+            [false, false] if !self.differ && !counts => Some(DateOrder::DayFirst),
             _ => None,
         }
     }
 
     fn undecided(&self, head: &Head) -> Diagnostic {
         let shown = self.first.as_ref().map_or([0; 3], |(date, _)| date.numbers);
+        let short = self.first.as_ref().is_some_and(|(date, _)| date.short);
         let message = format!(
-            "the dates may begin with the day or the month, as {:02}/{:02}/{:02} does: no row \
-             shows which",
-            shown[0], shown[1], shown[2]
+            "the dates may begin with the day{}, as {:02}/{:02}/{:02} does: no row shows which",
+            if short { ", the month or the year" } else { " or the month" },
+            shown[0],
+            shown[1],
+            shown[2]
         );
         Diagnostic::error(head.codes().dates, message)
             .at(self.first.as_ref().map(|(_, place)| place.clone()), "the first date")
-            .help(
-                "write `dates = \"day first\"` or `dates = \"month first\"` next to `csv`; a \
-                 command has `--dates`",
-            )
+            .help(match short {
+                true => {
+                    "write `dates = \"day first\"`, `dates = \"month first\"` or `dates = \"year \
+                     first\"` next to `csv`; a command has `--dates`"
+                }
+                false => {
+                    "write `dates = \"day first\"` or `dates = \"month first\"` next to `csv`; a \
+                     command has `--dates`"
+                }
+            })
     }
 }
 

@@ -277,8 +277,10 @@ pub(crate) fn quoted(name: &str) -> String {
 pub(crate) fn number(cell: &str, decimal: Decimal) -> Result<f64, Wrong> {
     match cell.parse::<f64>() {
         _ if cell.is_empty() => Err(Wrong::Missing),
-        // `20.7` in a file with decimal commas, `1.234` may be thousands
-        Ok(_) if decimal == Decimal::Comma && cell.contains('.') => Err(Wrong::Text),
+        // in a file with decimal commas `1.234` is 1234, and `20.7` is no number
+        Ok(_) if decimal == Decimal::Comma && cell.contains('.') => {
+            foreign(cell, decimal).ok_or(Wrong::Text)
+        }
         Ok(number) if number.is_finite() => Ok(number + 0.0), // -0 is 0
         Ok(_) => Err(Wrong::NotFinite),
         Err(_) => foreign(cell, decimal).ok_or(Wrong::Text),

@@ -77,7 +77,14 @@ pub(crate) fn other_brackets(name: &str) -> Option<(&str, &str)> {
 pub(crate) fn text_help(name: &str, cell: &str) -> String {
     let point = cell.replacen(',', ".", 1);
     if cell.contains(',') && point.parse::<f64>().is_ok() {
-        return format!("write numbers with a point: `{point}`");
+        // three digits after the comma may be thousands
+        let whole = cell.replacen(',', "", 1);
+        return match cell.split_once(',').is_some_and(|(_, rest)| rest.len() == 3) {
+            true => {
+                format!("write numbers with a point, `{point}`, or without thousands, `{whole}`")
+            }
+            false => format!("write numbers with a point: `{point}`"),
+        };
     }
     if is_moment(cell) {
         return format!(

@@ -8,7 +8,7 @@ pub enum Decimal {
     Point,
     /// A point, as other numbers of the file show or a key says: `1,234` is 1234.
     PointOnly,
-    /// A comma: `25,5`. `1.234` is no number, `1.234,5` is.
+    /// A comma: `25,5`. `1.234` is 1234.
     Comma,
 }
 
@@ -34,7 +34,7 @@ pub(crate) fn foreign(cell: &str, decimal: Decimal) -> Option<f64> {
     }
     let whole = match whole.contains(group) {
         false => whole.to_owned(),
-        true if decimal == Decimal::PointOnly || rest.starts_with(point) => grouped(whole, group)?,
+        true if decimal != Decimal::Point || rest.starts_with(point) => grouped(whole, group)?,
         true => return None,
     };
     format!("{sign}{whole}{}", rest.replacen(point, ".", 1)).parse().ok()
@@ -54,9 +54,9 @@ fn grouped(whole: &str, group: char) -> Option<String> {
 pub(crate) enum Shows {
     /// It has no comma.
     Nothing,
-    /// It has a point and no comma.
+    /// It has a decimal point and no comma.
     APoint,
-    /// Its comma is a decimal one, or parts thousands.
+    /// Its comma or its point is a decimal one, or parts thousands.
     Either,
     /// Only this sign gives a number.
     Only(Decimal),
@@ -65,8 +65,12 @@ pub(crate) enum Shows {
 /// The evidence of a cell that a number may be in.
 pub(crate) fn shows(cell: &str) -> Shows {
     if !cell.contains(',') {
-        let point = cell.contains('.') && cell.parse::<f64>().is_ok();
-        return if point { Shows::APoint } else { Shows::Nothing };
+        let digits = cell.trim_start_matches(['+', '-']);
+        return match cell.contains('.') && cell.parse::<f64>().is_ok() {
+            true if grouped(digits, '.').is_some() => Shows::Either,
+            true => Shows::APoint,
+            false => Shows::Nothing,
+        };
     }
     let comma = foreign(cell, Decimal::Comma).is_some();
     match (comma, foreign(cell, Decimal::PointOnly).is_some()) {
@@ -89,7 +93,8 @@ mod tests {
         assert_eq!(comma("1.234.567,5"), Some(1_234_567.5));
         assert_eq!(comma("2,5E-3"), Some(0.0025));
         assert_eq!(comma("+ 23,4"), Some(23.4));
-        for none in ["1.234", "1,2,3", "12.34,5", "25,5 C", "", ",", "-", "inf"] {
+        assert_eq!(comma("1.234"), Some(1234.0));
+        for none in ["1.2345", "1,2,3", "12.34,5", "25,5 C", "", ",", "-", "inf"] {
             assert_eq!(comma(none), None, "{none}");
         }
         let point = |cell| foreign(cell, Decimal::PointOnly);
@@ -104,6 +109,8 @@ mod tests {
     fn a_cell_shows_its_decimal_sign() {
         assert_eq!(shows("25"), Shows::Nothing);
         assert_eq!(shows("25.5"), Shows::APoint);
+        assert_eq!(shows("0.125"), Shows::APoint);
+        assert_eq!(shows("-1.234"), Shows::Either);
         assert_eq!(shows("1,234"), Shows::Either);
         assert_eq!(shows("0,234"), Shows::Only(Decimal::Comma));
         assert_eq!(shows("25,5"), Shows::Only(Decimal::Comma));

@@ -109,13 +109,14 @@ pub(crate) fn decimal(
     }
 }
 
-/// The error of commas that may be decimal ones or part thousands.
+/// The error of signs that may be decimal ones or part thousands.
 fn undecided(head: &Head, (cell, place): (String, Span)) -> Diagnostic {
-    let [decimal, whole] = [cell.replace(',', "."), cell.replace(',', "")];
+    let [decimal, whole] = [cell.replace(',', "."), cell.replace([',', '.'], "")];
     let message = format!("`{cell}` is {decimal} or {whole}: no number of the file shows which");
+    let (sign, other) = if cell.contains(',') { (',', '.') } else { ('.', ',') };
     Diagnostic::error(head.codes().undecided, message).at(place, "").help(format!(
-        "write `decimal = \",\"` next to `csv` (a command: `--decimal ,`) for {decimal}, \
-         `decimal = \".\"` for {whole}"
+        "write `decimal = \"{sign}\"` next to `csv` (a command: `--decimal {sign}`) for {decimal}, \
+         `decimal = \"{other}\"` for {whole}"
     ))
 }
 

@@ -226,3 +226,59 @@ fn plain_files_have_no_note() {
         assert_eq!(notes, 0, "{text}");
     }
 }
+
+/// Texts that can be read in two ways: each is refused, and the given statement settles it.
+#[test]
+fn what_can_be_read_in_two_ways_is_refused() {
+    let none = CsvOptions::default;
+    let refused = |text: &str, csv: CsvOptions| code(text, csv).0;
+    // 1.5 or 1500, 20 or 20000
+    let thousands = "t [s];n [rpm];T [degC]\n0;1.500;20,000\n60;1.500;27,775\n";
+    assert_eq!(refused(thousands, none()), "record::decimal");
+    let points = "t [s];T [degC]\n0;28\n60.000;29\n";
+    assert_eq!(refused(points, none()), "record::decimal");
+    let comma = CsvOptions { decimal: Some(Decimal::Comma), ..none() };
+    assert_eq!(of(points, comma).unwrap().time, [0.0, 60_000.0]);
+    let point = CsvOptions { decimal: Some(Decimal::PointOnly), ..none() };
+    assert_eq!(of(points, point).unwrap().time, [0.0, 60.0]);
+    // a comma elsewhere shows that the point parts thousands
+    let shown = "t [s];T [degC]\n0;28,5\n1.060;29,25\n";
+    assert_eq!(of(shown, none()).unwrap().time, [0.0, 1060.0]);
+    // hours and minutes, or minutes and seconds
+    assert_eq!(refused("Elapsed,T [degC]\n00:00,20\n01:00,21\n", none()), "record::dates");
+    // two columns of times
+    let setpoint =
+        "Timestamp,Dwell [min],T [degC]\n2026-05-03 09:00:00,5,20\n2026-05-03 09:01:00,5,21\n";
+    assert_eq!(refused(setpoint, none()), "record::no_time");
+    // two clocks for one date
+    let clocks = "Date;Elapsed;Time;T [degC]\n03.05.2026;00:00:00;23:59:00;20\n04.05.2026;00:02:00;00:01:00;21\n";
+    assert_eq!(refused(clocks, none()), "record::dates");
+    // a start on another day needs the order of the dates
+    let one_day = "Time,T [degC]\n5/3/2026 09:00:00,20\n5/3/2026 09:01:00,21\n";
+    let start = CsvOptions { start: Some("2026-05-03 09:00:00".to_owned()), ..none() };
+    assert_eq!(refused(one_day, start), "record::dates");
+    let given = CsvOptions {
+        start: Some("2026-05-03 09:00:00".to_owned()),
+        dates: Some(DateOrder::MonthFirst),
+        ..none()
+    };
+    assert_eq!(of(one_day, given).unwrap().time, [0.0, 60.0]);
+    // an ambiguous start on rows that show their order
+    let iso = "Time,T [degC]\n2026-05-03 09:00:00,20\n2026-05-03 09:01:00,21\n";
+    let start = CsvOptions { start: Some("05/03/2026 09:00:00".to_owned()), ..none() };
+    assert_eq!(refused(iso, start), "record::start");
+    // an order that the form contradicts
+    let dotted = "Time,T [degC]\n03.05.2026 09:00:00,20\n03.06.2026 09:01:00,21\n";
+    let dates = CsvOptions { dates: Some(DateOrder::MonthFirst), ..none() };
+    assert_eq!(refused(dotted, dates), "record::dates");
+    // a year of two digits in front
+    let short = "Time,T [degC]\n26-05-03 09:00:00,20\n26-05-15 09:01:00,21\n";
+    assert!(code(short, none()).2.contains("year first"), "{:?}", code(short, none()));
+}
+
+/// The one clock of the one date is its time of day, wherever it is.
+#[test]
+fn a_date_and_its_clock_need_not_be_neighbours() {
+    let text = "Date;Op;Time;T [degC]\n01.05.2026;A;09:00:00;20\n02.05.2026;B;17:00:00;21\n";
+    assert_eq!(of(text, CsvOptions::default()).unwrap().time, [0.0, 115_200.0]);
+}

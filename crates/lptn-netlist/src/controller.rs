@@ -52,7 +52,7 @@ pub(crate) const CONTROLLER: SectionDeclaration = SectionDeclaration {
         akin("max", "quantity or expression", "the greatest output", "1").needed(),
         akin("start", "quantity or expression", "the integral at the start", "0").or("0"),
         key("tracking", "s", "time in which the integral goes back to a limit", "\"60 s\"")
-            .or("`K_p / K_i`"),
+            .or("`abs(K_p / K_i)`"),
         words("acts", &words_of(&ACTS), "more output warms or cools", "\"cooling\"")
             .or("`\"heating\"`"),
     ],
@@ -207,7 +207,11 @@ impl<'r> Controller<'r> {
         }
         let (k_i, h) = (fields.get("K_i").is_some(), self.here);
         if k_i && fields.get("tracking").is_none() {
-            self.text(ValueKind::Parameter.section(), "tracking", format!("{h}.K_p / {h}.K_i"));
+            self.text(
+                ValueKind::Parameter.section(),
+                "tracking",
+                format!("abs({h}.K_p / {h}.K_i)"),
+            );
         }
         if k_i && fields.get("start").is_none() {
             self.text(ValueKind::Parameter.section(), "start", format!("0 * {h}.max"));

@@ -38,6 +38,11 @@ pub enum ReduceError {
     OneWay = "reduce::one_way",
         "streams go on from node to node: their network has one equivalent node at most",
         help "leave --nodes, --error and --keep out, or write the streams as conductances";
+    /// Heat into the port leaves its steady temperature as it is, as under a controller with an
+    /// integral.
+    Held { name: String } = "reduce::held",
+        format!("`{name}` has no equivalent resistance: a controller keeps its temperature"),
+        help "choose another port, or give the controller a constant output";
     /// Sources or boundaries switch by themselves, which one node without the sensed places cannot
     /// follow.
     Switches { name: String } = "reduce::switches",

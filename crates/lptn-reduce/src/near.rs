@@ -12,7 +12,7 @@ use crate::capacity::least_squares;
 use crate::definition::{Definition, Pair, recommended};
 use crate::deviation;
 use crate::error::ReduceError;
-use crate::norton::{Inputs, NortonEquivalent, grounded};
+use crate::norton::{Inputs, NortonEquivalent, grounded, warms};
 use crate::reduction::{Dynamics, Reduction, ReductionOptions, window};
 use crate::step::{ResponseTerm, StepResponse};
 
@@ -44,6 +44,7 @@ impl Reduction {
         let network = system.network();
         grounded(network, port)?;
         let step = StepAnswer::new(linear, Drive::Node(port))?;
+        warms(network, port, &step.settled)?;
         let norton = norton(system, port, (linear, &step))?;
         let stored = settled_rises(linear, &[state.stored(network)])?;
         let temperature = state.temperatures[port.index()];
@@ -101,8 +102,11 @@ fn capacities(
     linear: &Linearised<'_>,
     norton: &NortonEquivalent,
 ) -> Result<Vec<(Definition, f64)>, ReduceError> {
-    let states = || linear.system().states().iter().map(|id| id.index()).zip(linear.capacity());
-    let sum = states().filter(|(i, _)| norton.response[*i] != 0.0).map(|(_, c)| c).sum();
+    let network = linear.system().network();
+    let stores = || linear.system().states().iter().zip(linear.capacity());
+    let warms = |id: NodeId| norton.response[id.index()] != 0.0 && network.is_thermal(id);
+    let sum = stores().filter(|(id, _)| warms(**id)).map(|(_, c)| c).sum();
+    let states = || stores().map(|(id, c)| (id.index(), c));
     let moment: f64 = states().map(|(i, c)| norton.influence[i] * c * norton.response[i]).sum();
     let squared = norton.resistance * norton.resistance;
     Ok(vec![(Definition::Sum, sum), (Definition::FirstMoment, moment / squared)])

@@ -6,6 +6,9 @@ use lptn_network::{ConductorFlow, End, InputError, Item, Network, NodeId};
 use crate::error::ReduceError;
 use crate::rises::{Rises, Way};
 
+/// Share of the largest rise below which the rise of the port is none.
+const HELD: f64 = 1e-9;
+
 /// The Norton equivalent of a linear network at a port: `q = Q_N - (T - T_ref) / R_eq`, where q is
 /// the heat in W that the network gives out of the port if something outside fixes the port at T.
 ///
@@ -66,6 +69,18 @@ pub fn transfer_resistance(
     Ok(NortonEquivalent::new(system, from)?.response[to.index()])
 }
 
+/// Checks that the rises of all nodes for 1 W into the port, in K, include one of the port.
+///
+/// # Errors
+/// [`ReduceError::Held`]
+pub(crate) fn warms(network: &Network, port: NodeId, rises: &[f64]) -> Result<(), ReduceError> {
+    let largest = rises.iter().fold(0.0, |most: f64, rise| most.max(rise.abs()));
+    match rises[port.index()].abs() > HELD * largest {
+        true => Ok(()),
+        false => Err(ReduceError::Held { name: network.nodes()[port.index()].name.clone() }),
+    }
+}
+
 impl NortonEquivalent {
     /// Reduces `system` at `port`.
     ///
@@ -73,7 +88,7 @@ impl NortonEquivalent {
     ///
     /// # Errors
     /// [`ReduceError::NoGround`] if no path leads from the port to a boundary,
-    /// [`ReduceError::Factorization`].
+    /// [`ReduceError::Held`], [`ReduceError::Factorization`].
     pub fn new(system: &ThermalSystem, port: NodeId) -> Result<Self, ReduceError> {
         grounded(system.network(), port)?;
         Self::with(system, port, &mut Rises::new(system)?)
@@ -95,6 +110,7 @@ impl NortonEquivalent {
         let response = solved(Way::Forth)?;
         let influence = if system.is_linear() { response.clone() } else { solved(Way::Back)? };
         let resistance = response[port.index()];
+        warms(network, port, &response)?;
         let weight = |source: &lptn_network::Source| {
             source.into.iter().map(|(node, share)| share * influence[node.index()]).sum::<f64>()
                 / resistance
@@ -137,8 +153,8 @@ impl NortonEquivalent {
     /// Sum of the capacities of all nodes that heat from the port reaches, in J/K.
     pub fn capacity_sum(&self, network: &Network) -> f64 {
         let is_reached = reached(network, self.port, Way::Forth);
-        let all = network.node_ids().zip(is_reached).filter(|(_, is)| *is);
-        all.map(|(id, _)| network.capacity(id)).sum()
+        let thermal = network.thermal_nodes().filter(|id| is_reached[id.index()]);
+        thermal.map(|id| network.capacity(id)).sum()
     }
 
     /// `m1 = sum of R_pk C_k R_kp` in K s/W: the first moment of the impulse response at the port

@@ -112,6 +112,7 @@ fn codes_stay_as_they_are() {
         (FactorError::NotSymmetric.into(), "reduce::singular"),
         (ReduceError::Modes, "reduce::modes"),
         (ReduceError::OneWay, "reduce::one_way"),
+        (ReduceError::Held { name: String::new() }, "reduce::held"),
         (ReduceError::Equivalent(String::new()), "reduce::equivalent"),
     ];
     for (error, code) in codes {

@@ -5,6 +5,7 @@
 
 use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
 use lptn_integrate::Pattern;
+use lptn_network::State;
 
 use crate::error::SteadyError;
 
@@ -41,13 +42,41 @@ pub(crate) fn free(
         let state = system.network().state_at(system.unknowns()[unknown]);
         match state.filter(|_| !reads[unknown]) {
             None => free.push(unknown),
-            Some(state) if flow[unknown].abs() > AT_REST => {
-                let rate = state.value(flow[unknown]);
-                let unit = state.ty.dimension.si_unit();
-                return Err(SteadyError::Drifts { name: state.name.clone(), rate, unit });
-            }
-            Some(_) => {}
+            Some(state) => at_rest(state, flow[unknown])?,
         }
     }
     Ok(free)
+}
+
+/// Checks that all other unknowns rest at these temperatures too, in K.
+///
+/// # Errors
+/// [`SteadyError::Drifts`] for a state that rested only where the search began.
+pub(crate) fn still(
+    system: &ThermalSystem,
+    work: &mut Workspace,
+    unknowns: &[f64],
+    free: &[usize],
+) -> Result<(), SteadyError> {
+    if free.len() == unknowns.len() {
+        return Ok(());
+    }
+    let mut flow = vec![0.0; unknowns.len()];
+    system.flow(work, unknowns, &mut flow)?;
+    let held = (0..unknowns.len()).filter(|unknown| free.binary_search(unknown).is_err());
+    for unknown in held {
+        if let Some(state) = system.network().state_at(system.unknowns()[unknown]) {
+            at_rest(state, flow[unknown])?;
+        }
+    }
+    Ok(())
+}
+
+/// Checks the flow into the node of a state, in W.
+fn at_rest(state: &State, flow: f64) -> Result<(), SteadyError> {
+    if flow.abs() <= AT_REST {
+        return Ok(());
+    }
+    let unit = state.ty.dimension.si_unit();
+    Err(SteadyError::Drifts { name: state.name.clone(), rate: state.value(flow), unit })
 }

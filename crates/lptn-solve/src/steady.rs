@@ -331,8 +331,9 @@ fn balanced(
     if islands.is_empty() {
         let free = standing::free(system, work, &temperatures)?;
         let unsolved = |error| SteadyError::Unsolved(Unsolved::new(system, error));
-        let mut newton = Newton::new(system, free).map_err(unsolved)?;
+        let mut newton = Newton::new(system, free.clone()).map_err(unsolved)?;
         stable(&mut newton, work, &mut temperatures).map_err(unsolved)?;
+        standing::still(system, work, &temperatures, &free)?;
     } else {
         adiabatic::solve(system, work, islands, &mut temperatures)?;
     }

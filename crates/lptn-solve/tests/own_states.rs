@@ -67,7 +67,7 @@ fn a_pi_controller_is_that_of_scipy() {
     }
 }
 
-/// The hot end under `[controller]`, whose integral goes back from the limit in `K_p / K_i`, against
+/// The hot end under `[controller]`, whose integral goes back from the limit in `abs(K_p / K_i)`, against
 /// SciPy's DOP853 with a tolerance of 1e-11.
 #[test]
 fn a_controller_is_that_of_scipy() {
@@ -371,4 +371,69 @@ fn random_plants_with_states_are_those_of_runge_and_kutta() {
         }
     }
     assert!(worst > 0.0);
+}
+
+/// Two comparisons inside one named value have one place in the text.
+#[test]
+fn comparisons_of_a_named_value_are_held_apart() {
+    let sum = "if(pot.T > 30 [degC], 1, 0) + if(pot.T > 35 [degC], 1, 0)";
+    let text = |value: &str, factor: &str| {
+        format!(
+            "format = 1\n[boundary]\nroom = {{ T = \"20 degC\" }}\n[node]\npot = {{ C = \"100 J/K\", T0 = \
+             \"20 degC\" }}\n{value}[resistor]\nloss = {{ from = \"pot\", to = \"room\", G = \"0.2 [W/K] * \
+             (1 + {factor})\" }}\n[source]\ns = {{ into = \"pot\", P = \"20 W\" }}\n"
+        )
+    };
+    let at = |text: String| column(&run(&network(&text), &[0.0, 600.0], 1e-6), "pot.T")[1] - ZERO;
+    // 500 s ln(10/9), then 250 s ln(20/17.5) longer, then towards 160/3 degC within 500/3 s
+    let to_30 = -500.0 * (1.0_f64 - 10.0 / 100.0).ln();
+    let to_35 = to_30 + 250.0 * (40.0_f64 / 35.0).ln();
+    let end = 20.0 + 100.0 / 3.0;
+    let right = end + (35.0 - end) * (-(600.0 - to_35) * 3.0 / 500.0).exp();
+    near(at(text("", &format!("({sum})"))), right, 1e-4);
+    near(at(text(&format!("[value]\nfan = \"{sum}\"\n"), "fan")), right, 1e-4);
+}
+
+/// A ramp that goes down to its least value, and one that goes up to its greatest.
+#[test]
+fn each_of_two_bounds_stops_a_state() {
+    for (rate, start, bound) in [("-0.3 1/s", 60.0_f64, 10.0), ("0.3 1/s", 60.0, 100.0)] {
+        let text = format!(
+            "format = 1\n[boundary]\nroom = {{ T = \"20 degC\" }}\n[node]\npot = {{ C = \"2 kJ/K\", T0 = \
+             \"20 degC\" }}\n[resistor]\nloss = {{ from = \"pot\", to = \"room\", G = \"10 W/K\" }}\n\
+             [state]\nz = {{ rate = \"{rate}\", start = {start}, min = 10, max = 100 }}\n[source]\n\
+             s = {{ into = \"pot\", P = \"z * 1 [W]\" }}\n"
+        );
+        let network = network(&text);
+        let solution = run(&network, &[0.0, 100.0, 600.0], 1e-5);
+        let z = column(&solution, "z");
+        let moved = (bound - start) * (0.3 * 100.0 / (bound - start).abs()).min(1.0);
+        near(z[1], start + moved, 1e-6);
+        near(z[2], bound, 1e-6);
+        near(column(&solution, "s.P")[2], bound, 1e-5);
+        let steady = SteadyState::solve(&ThermalSystem::assemble(&network).unwrap(), 0.0).unwrap();
+        near(steady[network.node("pot").unwrap()] - ZERO, 20.0 + bound / 10.0, 1e-6);
+    }
+}
+
+/// It rests at the start and drifts where the temperatures come to rest.
+#[test]
+fn a_state_that_drifts_at_the_end_has_no_steady_state() {
+    for power in ["30 W", "30 [W] + 1 [W] * age"] {
+        let text = format!(
+            "format = 1\n[boundary]\nroom = {{ T = \"20 degC\" }}\n[node]\npot = {{ C = \"100 J/K\", T0 = \
+             \"20 degC\" }}\n[resistor]\nloss = {{ from = \"pot\", to = \"room\", G = \"1 W/K\" }}\n\
+             [state]\nage = {{ rate = \"max(0, (pot.T - 30 [degC]) / 1 [K]) / 100 [s]\", start = 0, size \
+             = 1 }}\n[source]\ns = {{ into = \"pot\", P = \"{power}\" }}\n"
+        );
+        let network = network(&text);
+        let system = ThermalSystem::assemble(&network).unwrap();
+        match SteadyState::solve(&system, 0.0) {
+            Err(SteadyError::Drifts { name, rate, .. }) => {
+                assert_eq!(name, "age");
+                near(rate, 0.2, 1e-6);
+            }
+            other => panic!("{other:?}"),
+        }
+    }
 }

@@ -112,6 +112,12 @@ fn time(
         unit.is_some_and(|unit| unit.ty == TIME)
     };
     let of_unit = columns.iter().position(|header| is_time(header) && !header.below);
+    let plain = |index: usize| ["t", "time"].iter().any(|name| columns[index].name == **name);
+    if let (Some(numbers), Some(moments)) = (of_unit, moments(head, first))
+        && !plain(numbers)
+    {
+        return Err(two_times(head, [numbers, moments]));
+    }
     if of_unit.is_none()
         && let Some(index) = moments(head, first)
         && let Some(clock) = Clock::of((head, text), (index, first), &query.csv)?
@@ -124,6 +130,16 @@ fn time(
         .or_else(|| columns.iter().position(is_time))
         .or_else(|| columns.iter().position(by_name));
     Ok((head.column(index.ok_or_else(|| no_time(head))?, Some(TIME), &nobody)?, None))
+}
+
+/// The error of a column of numbers and one of dates that may both be the times.
+fn two_times(head: &Head, columns: [usize; 2]) -> Diagnostic {
+    let [a, b] = columns.map(|index| head.columns[index].name.as_str());
+    let message = format!("`{a}` and `{b}` may both be the times");
+    Diagnostic::error("record::no_time", message)
+        .at(head.columns[columns[0]].place.clone(), "in a unit of time")
+        .also(head.columns[columns[1]].place.clone(), "dates or clock times")
+        .help(format!("name one: `time = \"{b}\"` (a command: `--time \"{b}\"`)"))
 }
 
 /// Words in the names of columns of times.

@@ -18,6 +18,8 @@ impl<'a> Elaboration<'a> {
     pub(super) fn matrix(&mut self, fields: &Fields<'a>) -> Option<TableSymbol> {
         let why = "is for lists, but the points come from a CSV file";
         self.refuse_keys(fields, &["x_unit", "y_unit"], why);
+        let why = "is for columns: the headings of a matrix have the units";
+        self.refuse_keys(fields, &["units"], why);
         let outside = self.straight(fields);
         let examples = [("x", "speed [rpm]"), ("y", "torque [N m]"), ("value", "loss [W]")];
         let headings = examples.map(|example| self.heading(fields, example));

@@ -1,11 +1,10 @@
 //! Checked tree to flat code.
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use super::check::Checked;
 use super::function::{self, Function};
-use super::program::{Arithmetic, NamedTable, Op, Operand, Program};
+use super::program::{Arithmetic, NamedTable, Op, Operand, Origin, Program};
 use super::tree::{Comparison, Id, Node, Operator, Tree};
 use crate::types::Type;
 
@@ -24,7 +23,7 @@ pub(super) struct Generator<'a> {
     /// Number of comparisons around the current node.
     comparing: usize,
     code: Vec<Op>,
-    spans: Vec<Range<usize>>,
+    origins: Vec<Origin>,
     slots: Vec<u32>,
     waiting: usize,
     most_waiting: usize,
@@ -37,7 +36,7 @@ impl<'a> Generator<'a> {
             freezes,
             comparing: 0,
             code: Vec::new(),
-            spans: Vec::new(),
+            origins: Vec::new(),
             slots: Vec::new(),
             waiting: 0,
             most_waiting: 0,
@@ -51,7 +50,7 @@ impl<'a> Generator<'a> {
             text: Arc::clone(text),
             ty,
             code: self.code,
-            spans: self.spans,
+            origins: self.origins,
             slots: self.slots,
             stack_size: self.most_waiting,
             tables: Arc::clone(self.common.tables),
@@ -74,7 +73,7 @@ impl<'a> Generator<'a> {
         }
         self.most_waiting = self.most_waiting.max(self.waiting);
         self.code.push(op);
-        self.spans.push(self.common.tree.span(origin));
+        self.origins.push(Origin { node: origin, span: self.common.tree.span(origin) });
     }
 
     /// Leaves the value of a node in the accumulator. A long sum leans to the left: that side is

@@ -53,7 +53,7 @@ impl Program {
     }
 
     fn span(&self, index: usize) -> Range<usize> {
-        self.spans.get(index).cloned().unwrap_or_default()
+        self.origins.get(index).map(|origin| origin.span.clone()).unwrap_or_default()
     }
 
     #[inline(always)]

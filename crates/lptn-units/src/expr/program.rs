@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::function::Function;
-use super::tree::Comparison;
+use super::tree::{Comparison, Id};
 use crate::table::LookupTable;
 use crate::types::Type;
 use crate::unit::Unit;
@@ -57,6 +57,14 @@ pub(crate) enum Op {
     JumpUnlessSet(u32, usize),
 }
 
+/// The source of an operation. Several nodes may have one place, as inside a named value.
+#[derive(Clone, Debug)]
+pub(crate) struct Origin {
+    pub(crate) node: Id,
+    /// The part of the text.
+    pub(crate) span: Range<usize>,
+}
+
 /// A table that an expression calls.
 #[derive(Clone, Debug)]
 pub(crate) struct NamedTable {
@@ -82,8 +90,8 @@ pub struct Program {
     pub(crate) text: Arc<str>,
     pub(crate) ty: Type,
     pub(crate) code: Vec<Op>,
-    /// The part of the text each operation comes from.
-    pub(crate) spans: Vec<Range<usize>>,
+    /// One per operation.
+    pub(crate) origins: Vec<Origin>,
     pub(crate) slots: Vec<u32>,
     pub(crate) stack_size: usize,
     pub(crate) tables: Arc<[NamedTable]>,
@@ -130,17 +138,17 @@ impl Program {
         for (index, comparison) in self.comparisons.iter().enumerate() {
             let Some(slot) = slot_of(index) else { continue };
             // both end with the operation that comes from the comparison as a whole
-            let Some(place) = comparison.spans.last() else { continue };
-            held.hold(place, slot);
-            held.comparisons.iter_mut().for_each(|outer| outer.hold(place, slot));
+            let Some(&Origin { node, .. }) = comparison.origins.last() else { continue };
+            held.hold(node, slot);
+            held.comparisons.iter_mut().for_each(|outer| outer.hold(node, slot));
         }
         held
     }
 
-    /// Reads the truth of the comparison at this place of the text from a slot.
-    fn hold(&mut self, place: &Range<usize>, slot: u32) {
-        let ops = self.code.iter_mut().zip(&self.spans);
-        for (op, _) in ops.filter(|(_, span)| *span == place) {
+    /// Reads the truth of a comparison, a node of the tree, from a slot.
+    fn hold(&mut self, comparison: Id, slot: u32) {
+        let ops = self.code.iter_mut().zip(&self.origins);
+        for (op, _) in ops.filter(|(_, origin)| origin.node == comparison) {
             if let Op::JumpUnless(_, target) = *op {
                 *op = Op::JumpUnlessSet(slot, target);
                 self.slots.push(slot);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::program::{Arithmetic, Op, Operand, Program};
+use super::program::{Arithmetic, Op, Operand, Origin, Program};
 
 /// The role of a slot in [`Program::split`].
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -81,11 +81,11 @@ impl Program {
         };
         self.of_code(
             self.code[from..to].iter().map(shifted).collect(),
-            self.spans[from..to].to_vec(),
+            self.origins[from..to].to_vec(),
         )
     }
 
-    fn of_code(&self, code: Vec<Op>, spans: Vec<std::ops::Range<usize>>) -> Self {
+    fn of_code(&self, code: Vec<Op>, origins: Vec<Origin>) -> Self {
         let mut slots: Vec<u32> = code.iter().filter_map(slot_of).collect();
         slots.sort_unstable();
         slots.dedup();
@@ -93,7 +93,7 @@ impl Program {
             text: Arc::clone(&self.text),
             ty: self.ty,
             code,
-            spans,
+            origins,
             slots,
             stack_size: self.stack_size,
             tables: Arc::clone(&self.tables),
@@ -239,8 +239,8 @@ impl Walk<'_> {
             self.program.part(value.from, value.to)
         } else {
             let operand = self.program.code.get(value.from).and_then(slot_of).map(Operand::Slot);
-            let span = self.program.spans.get(value.from).cloned().unwrap_or_default();
-            self.program.of_code(operand.map(Op::Load).into_iter().collect(), vec![span])
+            let origins = self.program.origins.get(value.from..=value.from).unwrap_or_default();
+            self.program.of_code(operand.map(Op::Load).into_iter().collect(), origins.to_vec())
         };
         self.found.parts.push(part);
     }
