@@ -140,6 +140,20 @@ fn a_pipe_is_exact_for_any_number_of_rings() {
     }
 }
 
+/// A grid whose first face is at 100 degC and second at 0 degC, by the paths `left` and `right`.
+fn between(grid: &str, [hot, cold]: [&str; 2]) -> String {
+    format!(
+        r#"{grid}
+[boundary]
+cold = {{ T = "0 degC" }}
+hot = {{ T = "100 degC" }}
+[resistor]
+left = {{ from = "hot", to = "{hot}", R = "1e-9 K/W" }}
+right = {{ from = "{cold}", to = "cold", R = "1e-9 K/W" }}
+"#
+    )
+}
+
 /// k = 1 + 0.01 (T - 0 degC) W/(m K): the integral of k falls with ln r (Kirchhoff).
 #[test]
 fn a_conductivity_over_temperature_is_exact_in_a_pipe() {
@@ -156,14 +170,8 @@ k = "1 [W/(m K)] + 0.01 [W/(m K^2)] * (T - 0 [degC])"
 density = "2000 kg/m^3"
 cp = "1000 J/(kg K)"
 T0 = "20 degC"
-[boundary]
-cold = { T = "0 degC" }
-hot = { T = "100 degC" }
-[resistor]
-left = { from = "hot", to = "pipe.inner", R = "1e-9 K/W" }
-right = { from = "pipe.outer", to = "cold", R = "1e-9 K/W" }
 "#;
-    let (netlist, steady) = settled(text);
+    let (netlist, steady) = settled(&between(text, ["pipe.inner", "pipe.outer"]));
     let exact = 1.5 * 100.0 * PI / 2.0 * 0.3 / 3_f64.ln();
     close(heat(&netlist, &steady, "left"), exact, 1e-5 * exact);
     let theta = celsius(&netlist, &steady, "pipe[13,1]");
@@ -189,20 +197,14 @@ k = ["7 W/(m K)", "2 W/(m K)", "7 W/(m K)"]
 density = "2000 kg/m^3"
 cp = "1000 J/(kg K)"
 T0 = "20 degC"
-[boundary]
-cold = { T = "0 degC" }
-hot = { T = "100 degC" }
-[resistor]
-left = { from = "hot", to = "bend.phi0", R = "1e-9 K/W" }
-right = { from = "bend.phi1", to = "cold", R = "1e-9 K/W" }
 "#;
-    let (netlist, steady) = settled(text);
+    let (netlist, steady) = settled(&between(text, ["bend.phi0", "bend.phi1"]));
     let exact = 100.0 * 2.0 * 0.2 * 2_f64.ln() / (2.0 * PI / 3.0);
     close(heat(&netlist, &steady, "left"), exact, 1e-6 * exact);
     close(celsius(&netlist, &steady, "bend[4,1]"), 87.5, 1e-5);
 }
 
-/// J0 and J1 by their series (Abramowitz and Stegun, 9.1.10), for arguments up to 40.
+/// J0 and J1 for arguments up to 40 (Abramowitz and Stegun, section 9.12).
 fn bessel(order: u32, x: f64) -> f64 {
     // Miller's recurrence downwards, normalised by J0 + 2 (J2 + J4 + ..) = 1
     let (mut above, mut here, mut sum, mut found) = (0.0_f64, 1e-300, 0.0, 0.0);

@@ -30,8 +30,8 @@ pub(crate) struct Clock {
 }
 
 impl Clock {
-    /// The clock in a column; `None` if its first cell is no date or clock time, or if the column
-    /// has a unit of time.
+    /// The clock in a column; `None` if its first cell is not a date or clock time, or if the
+    /// column has a unit of time.
     ///
     /// # Errors
     /// If the order of its dates cannot be found, or `start` has another form.
@@ -111,7 +111,7 @@ impl Clock {
     /// The time of a row in s.
     ///
     /// # Errors
-    /// If its cells are no moment in the form of the first row.
+    /// If its cells are not a moment in the form of the first row.
     pub(crate) fn time<'c>(&mut self, cell: impl Fn(usize) -> &'c str) -> Result<f64, Wrong> {
         let mut moment = Moment::default();
         for &part in &self.parts {
@@ -242,7 +242,7 @@ struct Dates {
     first: Option<(Date, Span)>,
     /// True if a date is not the first one.
     differ: bool,
-    /// True if the first or the second number of a date is no month.
+    /// True if the first or the second number of a date cannot be a month.
     above: [bool; 2],
 }
 

@@ -59,7 +59,7 @@ pub(crate) struct Header {
     pub(crate) name: String,
     pub(crate) unit: Option<String>,
     pub(crate) place: Span,
-    /// True if the unit is in a line of its own.
+    /// True if the unit is in a separate line.
     pub(crate) below: bool,
 }
 
@@ -277,7 +277,7 @@ pub(crate) fn quoted(name: &str) -> String {
 pub(crate) fn number(cell: &str, decimal: Decimal) -> Result<f64, Wrong> {
     match cell.parse::<f64>() {
         _ if cell.is_empty() => Err(Wrong::Missing),
-        // in a file with decimal commas `1.234` is 1234, and `20.7` is no number
+        // in a file with decimal commas `1.234` is 1234, and `20.7` is not a number
         Ok(_) if decimal == Decimal::Comma && cell.contains('.') => {
             foreign(cell, decimal).ok_or(Wrong::Text)
         }

@@ -3,7 +3,7 @@
 /// The decimal sign of a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Decimal {
-    /// A point. `1,234` is no number: the comma may be a decimal one.
+    /// A point. `1,234` is not a number: the comma may be a decimal one.
     #[default]
     Point,
     /// A point, as other numbers of the file show or a key says: `1,234` is 1234.

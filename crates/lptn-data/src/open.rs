@@ -98,7 +98,7 @@ pub(crate) fn decimal(
         }
     }
     if head.dialect.separator == b',' {
-        // quoted names such as "1,2" are no numbers with commas
+        // quoted names such as "1,2" are not numbers with commas
         return Ok(if points == 0 && commas > 0 { Decimal::Comma } else { Decimal::Point });
     }
     match (commas > points, points > 0, either) {

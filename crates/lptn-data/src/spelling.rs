@@ -32,7 +32,7 @@ const SPELLINGS: [(&str, &str); 21] = [
 /// The unit of a header, in any of its spellings.
 ///
 /// # Errors
-/// The error of a text that is no unit.
+/// The error of a text that is not a unit.
 pub(crate) fn unit(text: &str) -> Result<Unit, UnitError> {
     Unit::parse(text).or_else(|error| {
         let bare: String = text.to_lowercase().split_whitespace().collect();
@@ -48,7 +48,8 @@ pub(crate) fn is_unit(text: &str) -> bool {
     !text.is_empty() && (["-", "C"].contains(&text) || unit(text).is_ok())
 }
 
-/// The name and the unit of `ring (°C)`, `ring/°C` or `ring / °C`; `None` if the second is no unit.
+/// The name and the unit of `ring (°C)`, `ring/°C` or `ring / °C`;
+/// `None` if the second is not a unit.
 pub(crate) fn apart(header: &str) -> Option<(&str, &str)> {
     let split = match header.strip_suffix(')') {
         Some(rest) => rest.rsplit_once('('),

@@ -5,7 +5,7 @@
 //! integral follows `dI/dt = K_i e + (u - v) / tracking`: at a limit it goes back to the limit
 //! (back-calculation; K. J. Åström and R. M. Murray, Feedback Systems, 2nd edition, Princeton 2021,
 //! section 11.4). Nothing switches, so a controller has no events. The derivative is that of the
-//! sensed temperature after a lag of first order, so that a step of the set point is no impulse.
+//! sensed temperature after a lag of first order: a step of the set point causes no impulse.
 //!
 //! Parameters of a controller have names, `NAME.K_p`, so that sweeps and fits can change them.
 
@@ -80,7 +80,7 @@ const ACTS: [(&str, bool); 2] = [("heating", true), ("cooling", false)];
 const GIVEN: [&str; 9] =
     ["setpoint", "K_p", "K_i", "K_d", "lag", "min", "max", "start", "tracking"];
 
-/// Values `NAME.KEY` that are no results.
+/// Values `NAME.KEY` that are not results.
 pub(crate) const INNER: [&str; 2] = ["error", "demand"];
 
 /// Replaces every controller by its values and states; the types that some of these have to have.

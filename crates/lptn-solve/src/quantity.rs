@@ -134,7 +134,7 @@ impl Quantity {
         }
     }
 
-    /// True if it is no recorded temperature, and is read as the run reaches a row.
+    /// True if it is not a recorded temperature, and is read as the run reaches a row.
     pub(crate) fn needs_all(self) -> bool {
         matches!(self, Self::Heat(_) | Self::Report(_) | Self::Grid(_) | Self::State(_))
     }

@@ -41,7 +41,7 @@ pub(crate) fn detect(text: &str) -> Option<Dialect> {
 }
 
 impl<'t> Sheet<'t> {
-    /// The lines cut by this separator; `None` if the last of them are no rows of it.
+    /// The lines cut by this separator; `None` if the last of them are not rows of it.
     fn of(text: &'t str, lines: &'t [Range<usize>], separator: u8) -> Option<Self> {
         let cells: Vec<Vec<&str>> =
             lines.iter().map(|line| cells(&text[line.clone()], separator)).collect();

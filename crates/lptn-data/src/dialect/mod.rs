@@ -25,7 +25,7 @@ pub(crate) struct Dialect {
     pub(crate) decimal: Decimal,
     /// The byte at which the reader looks for the header.
     pub(crate) start: usize,
-    /// Number of lines above the header that are no comments.
+    /// Number of lines above the header that are not comments.
     pub(crate) titles: usize,
     /// The line with the units.
     pub(crate) units: Option<Range<usize>>,
