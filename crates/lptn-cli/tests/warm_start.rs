@@ -154,6 +154,11 @@ fn states_go_on_where_they_were() {
     };
     let (whole, parts) = (used("whole.toml"), used("second.toml"));
     assert!((whole - parts).abs() < 1e-6 * whole, "{whole} {parts} kJ");
+    // written out, they begin where they were
+    let flat = folder.run(&["check", "--expand", "second.toml"]).exits(0).out;
+    folder.write("flat.toml", &flat);
+    let flat = used("flat.toml") / 1e3;
+    assert!((flat - parts).abs() < 1e-6 * parts, "{flat} {parts} kJ");
     let bare = OVEN.replace(
         "used = { rate = \"heat\", start = \"0 kJ\", size = \"1 MJ\" }",
         "lost = { rate = \"heat\", start = \"1 J\" }",

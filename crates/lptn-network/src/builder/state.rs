@@ -76,7 +76,8 @@ impl NetworkBuilder {
 
     /// Starts a state at a value in SI units, in place of its own start.
     pub fn start_state_at(&mut self, id: StateId, value: f64) {
-        let state = &self.parts.states[id.index()];
+        let state = &mut self.parts.states[id.index()];
+        state.start = Some(Value::Constant(value));
         let (node, kelvin) = (state.node, state.kelvin(value));
         self.parts.nodes[node.index()].initial = Some(Value::Constant(kelvin));
     }
