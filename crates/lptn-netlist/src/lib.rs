@@ -64,6 +64,7 @@ mod near_file;
 mod netlist;
 mod outputs;
 mod parameters;
+mod pipe;
 mod place;
 mod plan;
 mod plausible;

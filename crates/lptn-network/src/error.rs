@@ -368,6 +368,11 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     NoProperty { item: Item, field: Field } = "network::no_property",
         at Some((*item, Field::Material)),
         says format!("the material of `{}` has no `{}`", say.name, field.key()), help None;
+    /// A pipe that more than its two streams reach.
+    PipeEnds { node: NodeId } = "network::pipe_ends", at Some((Item::Node(*node), Field::Name)),
+        says format!("something else than its own stream reaches the pipe `{}`", say.name),
+        help text("a pipe exchanges no heat: let paths, sources and other streams end at a node \
+            before or after it");
     /// A stream that ends at a face of a grid, which it cannot mix with.
     StreamIntoFace { item: Item } = "network::stream_into_face", at Some((*item, Field::To)),
         says format!("the stream `{}` ends at a face, which is solid", say.name),

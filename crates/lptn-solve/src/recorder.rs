@@ -19,6 +19,8 @@ use crate::last::LastState;
 use crate::ledger::Ledger;
 use crate::limit::{LimitWatch, with_limits};
 use crate::looks::Looks;
+use crate::newton_error::NewtonError;
+use crate::pipe::Shared;
 use crate::ranges::RangeWatch;
 use crate::reading::Reading;
 use crate::readings::Readings;
@@ -127,6 +129,11 @@ impl<'a> Recorder<'a> {
             branch_ahead: Vec::new(),
             idle: false,
         })
+    }
+
+    /// Takes the temperatures of pipes from their content.
+    pub(crate) fn read_pipes(&mut self, pipes: &Shared) -> Result<(), NewtonError> {
+        self.unfold.read_pipes(pipes)
     }
 
     pub(crate) fn system(&self) -> &'a ThermalSystem {

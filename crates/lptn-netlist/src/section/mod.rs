@@ -32,6 +32,7 @@ mod top;
 
 pub(crate) use control::{CONTROL, narrow};
 pub(crate) use default::{Default, Initial};
+pub(crate) use forms::check_forms;
 pub(crate) use keys::LUBRICANT_OF;
 pub use list::{Studies, format};
 pub(crate) use node::NODE;

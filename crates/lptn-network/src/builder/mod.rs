@@ -6,6 +6,7 @@ pub(crate) mod grid;
 mod grid_path;
 pub(crate) mod lookup;
 pub(crate) mod numbered;
+mod pipe;
 mod register;
 pub(crate) mod result;
 pub(crate) mod signal;

@@ -20,6 +20,7 @@ pub(crate) mod label;
 pub(crate) mod layout;
 pub(crate) mod named;
 pub(crate) mod named_value;
+pub(crate) mod pipe;
 pub(crate) mod reads;
 pub(crate) mod result;
 pub(crate) mod rings;
@@ -49,6 +50,7 @@ use crate::parts::grid::{FacePath, Grid, Inner};
 use crate::parts::label::{CONDUCTOR, Label, parsed};
 use crate::parts::layout::Layout;
 use crate::parts::named_value::NamedValue;
+use crate::parts::pipe::PipePart;
 use crate::parts::result::{Limit, Report};
 use crate::parts::signal::Course;
 use crate::parts::state::State;
@@ -73,6 +75,7 @@ pub(crate) struct Parts {
     /// In the order of their nodes.
     pub(crate) states: Vec<State>,
     pub(crate) named_values: Vec<NamedValue>,
+    pub(crate) pipes: Vec<PipePart>,
     pub(crate) materials: Vec<Material>,
     pub(crate) fluids: Vec<Fluid>,
     pub(crate) grids: Vec<Grid>,
