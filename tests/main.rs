@@ -21,6 +21,7 @@ mod expand;
 mod fuzz;
 mod gears;
 mod grid_faces;
+mod grid_joints;
 mod grids;
 mod import;
 #[path = "support/kind_page.rs"]

@@ -4,8 +4,8 @@ use lptn_laws::Formula;
 use lptn_units::{EvalError, Type, format_short};
 
 use crate::error_words::{
-    Say, area, by, crossed, evaluation, in_unit, inside, keys, not_positive, unused_name, usable,
-    without_brackets,
+    Say, by, crossed, evaluation, face_area, in_unit, inside, joins, joins_cells, joins_sides,
+    keys, most_offset, most_pairs, not_positive, unused_name, usable, without_brackets,
 };
 use crate::id::{
     ConductorId, ControlId, Field, FluidId, GridId, Item, NodeId, SignalId, SourceId, StateId,
@@ -380,36 +380,36 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     /// Two faces that are joined but of different shapes.
     FaceShapes { item: Item, faces: [GridFace; 2], names: [String; 2] } = "network::face_shapes",
         at Some((*item, Field::To)),
-        says format!(
-            "`{}` joins `{}` to `{}`, and their shapes do not fit", say.name, names[0], names[1]
-        ),
+        says format!("{}, and their shapes do not fit", joins(say, names)),
         help text("put a massless node between them, with a path to each face");
     /// Two faces that are joined but not divided in the same way: cells of each along its two axes.
     FaceCells { item: Item, faces: [GridFace; 2], names: [String; 2], cells: [[usize; 2]; 2] } =
-        "network::face_cells",
-        at Some((*item, Field::To)),
-        says format!(
-            "`{}` joins `{}` of {} cells to `{}` of {} cells",
-            say.name, names[0], by(&cells[0]), names[1], by(&cells[1])
-        ),
-        help text("divide both in the same way along the face");
+        "network::face_cells", at Some((*item, Field::To)),
+        says joins_cells(say, names, cells), help text("divide both in the same way along the face");
     /// Two faces that are joined but not of the same size: lengths of each along its two axes in m.
     FaceSides { item: Item, faces: [GridFace; 2], names: [String; 2], sides: [[f64; 2]; 2] } =
-        "network::face_sides",
+        "network::face_sides", at Some((*item, Field::To)), says joins_sides(say, names, sides),
+        help text("such a path needs two faces of the same lengths: check `size` of both");
+    /// Two faces that are joined but do not overlap: the largest offset along each axis in m.
+    FacesApart { item: Item, faces: [GridFace; 2], names: [String; 2], most: [f64; 2] } =
+        "network::faces_apart", at Some((*item, Field::Offset)),
+        says format!("{}, but they do not overlap", joins(say, names)),
+        help Some(most_offset(*most));
+    /// Parameters that change the cells at which two faces touch.
+    FacesMoved { item: Item, faces: [GridFace; 2], names: [String; 2] } = "network::faces_moved",
         at Some((*item, Field::To)),
-        says format!(
-            "`{}` joins `{}`, {}, to `{}`, {}",
-            say.name, names[0], area(sides[0]), names[1], area(sides[1])
-        ),
-        help text("two faces that touch have the same lengths: check `size` of both");
+        says format!("{}, and other cells touch for these parameters", joins(say, names)),
+        help text("cells are paired for the values in the file: write the new ones there");
+    /// Two faces that parameters move, and a path that cannot follow.
+    FacesMoving { item: Item, faces: [GridFace; 2], names: [String; 2] } = "network::faces_moving",
+        at Some((*item, Field::To)),
+        says format!("{}, which parameters move on each other", joins(say, names)),
+        help Some(most_pairs());
     /// A path whose area is not that of the face it ends at, in m^2.
     FaceArea { item: Item, given: f64, face: GridFace, name: String, area: f64 } =
         "network::face_area",
         at Field::of_law("area").map(|field| (*item, field)),
-        says format!(
-            "the area of `{}`, {} m^2, is not that of the face `{name}`, {} m^2",
-            say.name, format_short(*given), format_short(*area)
-        ),
+        says face_area(say, *given, (name, *area)),
         help text("leave `area` out: it is that of the face; convection on a part of it is given \
             by `G` or `R`");
 }

@@ -234,6 +234,8 @@ pub enum Field {
     Most,
     /// Usual size of a state.
     UsualSize,
+    /// Place of a face on another one.
+    Offset,
 }
 
 /// A field of a law; those of one key are one field, whatever the law.
@@ -341,6 +343,7 @@ impl Field {
             Self::Least => "min",
             Self::Most => "max",
             Self::UsualSize => "size",
+            Self::Offset => "offset",
         }
     }
 }

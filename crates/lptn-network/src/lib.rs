@@ -89,6 +89,7 @@ pub use parts::grid_value::GridValue;
 pub use parts::heat::HeatOf;
 pub use parts::layout::Followed;
 pub use parts::named_value::NamedValue;
+pub use parts::overlap::Placement;
 pub use parts::result::{Bound, Limit, LimitSeverity, Report};
 pub use parts::shape::{Form, Shape};
 pub use parts::signal::{AfterEnd, Course, Join, Signal};

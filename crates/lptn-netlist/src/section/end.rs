@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lptn_data::{Diagnostic, Span, nearest};
-use lptn_network::{End, GridFace, Input, NodeId, Terminal, is_name};
+use lptn_network::{End, GridFace, Input, NodeId, Placement, Terminal, is_name};
 use lptn_units::{Dimension, Type, suggest};
 
 use crate::fields::{Fields, Owner};
@@ -27,16 +27,21 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// The area of the face at which a path ends; of the first, if both ends are faces.
+    /// The area of the face at which a path ends, or that two faces have in common.
     pub(crate) fn area_of(
         &self,
         fields: &Fields<'_>,
         ends: [&Option<(Terminal, &RawValue)>; 2],
+        placement: &Placement<Input>,
     ) -> Option<Input> {
-        let area = ends.into_iter().flatten().find_map(|(terminal, _)| match terminal {
-            Terminal::Face(at) => self.builder.face_area(*at),
-            Terminal::End(_) => None,
-        });
+        let area = match faces(ends)[..] {
+            [a, b] => {
+                let area = self.builder.common_area([a, b], placement);
+                area.or_else(|| self.builder.face_area(a))
+            }
+            [face] => self.builder.face_area(face),
+            _ => None,
+        };
         // a name that was meant to be that of a face has been reported
         let meant = |key: &str| match fields.get(key).map(|raw| &raw.kind) {
             Some(RawKind::String { text, .. }) => {
@@ -269,6 +274,15 @@ impl<'a> Elaboration<'a> {
         candidates.sort_unstable();
         suggest(name, candidates.into_iter()).map(str::to_owned)
     }
+}
+
+/// The faces among the ends of a path.
+pub(crate) fn faces(ends: [&Option<(Terminal, &RawValue)>; 2]) -> Vec<GridFace> {
+    let face = |(terminal, _): &(Terminal, &RawValue)| match terminal {
+        Terminal::Face(at) => Some(*at),
+        Terminal::End(_) => None,
+    };
+    ends.into_iter().flatten().filter_map(face).collect()
 }
 
 fn example(name: &str, wanted: &str) -> String {

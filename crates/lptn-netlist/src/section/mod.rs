@@ -23,6 +23,7 @@ mod node;
 mod path;
 mod path_law;
 mod path_section;
+mod placement;
 mod property;
 mod signal;
 mod source;

@@ -4,6 +4,7 @@ pub(crate) mod control;
 pub(crate) mod face_path;
 pub(crate) mod grid;
 mod grid_path;
+mod joint;
 pub(crate) mod lookup;
 pub(crate) mod numbered;
 mod register;

@@ -12,6 +12,7 @@ use lptn_laws::Kind;
 
 use crate::id::{BoundaryId, ConductorId, End, GridId, Item, MaterialId, NodeId};
 pub use crate::parts::face::Face;
+use crate::parts::overlap::{Joint, Placement};
 use crate::parts::rings::Rings;
 use crate::parts::shape::{Form, Shape};
 use crate::value::Value;
@@ -213,14 +214,20 @@ pub struct FacePath {
     pub from: Terminal,
     /// The end that positive heat enters.
     pub to: Terminal,
-    /// Its whole area in m^2, if it is given; it has to be that of the face.
+    /// Its whole area in m^2, if it is given; it has to be that of the face, or the common area of
+    /// two.
     pub area: Option<Value>,
+    /// The place of the first of two faces on the second.
+    pub(crate) placement: Placement,
+    /// How its conductors follow from the cells of two faces.
+    pub(crate) joint: Joint,
     pub(crate) first: u32,
     pub(crate) end: u32,
 }
 
 impl FacePath {
-    /// Its conductors, `NAME[j,k]` by the cells of the face it starts at, else of that it ends at.
+    /// Its conductors, `NAME[j,k]` by the cells of the face it starts at, else of that it ends at;
+    /// `NAME[j,k,l,m]` by both if they overlap in part.
     /// At the end of a rod, whose cell has no index there, one conductor named as the path.
     pub fn conductors(&self) -> impl ExactSizeIterator<Item = ConductorId> + use<> {
         (self.first as usize..self.end as usize).map(ConductorId::from_len)

@@ -20,6 +20,8 @@ pub(crate) mod label;
 pub(crate) mod layout;
 pub(crate) mod named;
 pub(crate) mod named_value;
+pub(crate) mod overlap;
+pub(crate) mod placement;
 pub(crate) mod reads;
 pub(crate) mod result;
 pub(crate) mod rings;
