@@ -108,6 +108,10 @@ pub(crate) fn tables(kind: Kind) -> String {
             (../grids.md#bodies-that-meet-in-part)";
         lines.push(format!("| `offset`, `axes` | {of} | m | | one middle |"));
     }
+    if kind == Kind::Advection {
+        let of = "a [face along which it flows](../grids.md#a-stream-along-a-face), and the axis";
+        lines.push(format!("| `along`, `direction` | {of} | | | |"));
+    }
     if kind.laws().any(|law| law.declaration().carries.is_of_fluid()) {
         let of = "a [fluid](material.md) of the file or of the library: `air`, `water`, \
             `gear_oil_vg220`, ..";

@@ -4,8 +4,9 @@ use lptn_laws::Formula;
 use lptn_units::{EvalError, Type, format_short};
 
 use crate::error_words::{
-    Say, by, crossed, evaluation, face_area, in_unit, inside, joins, joins_cells, joins_sides,
-    keys, most_offset, most_pairs, not_positive, unused_name, usable, without_brackets,
+    Say, by, crossed, evaluation, face_area, in_unit, inside, joins_but, joins_cells, joins_sides,
+    keys, most_offset, most_pairs, not_positive, stream_help, stream_rows, unused_name, usable,
+    without_brackets,
 };
 use crate::id::{
     ConductorId, ControlId, Field, FluidId, GridId, Item, NodeId, SignalId, SourceId, StateId,
@@ -371,7 +372,11 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     /// A stream that ends at a face of a grid, which it cannot mix with.
     StreamIntoFace { item: Item } = "network::stream_into_face", at Some((*item, Field::To)),
         says format!("the stream `{}` ends at a face, which is solid", say.name),
-        help text("let the stream pass a node, and join that to the face by a [convection]");
+        help stream_help();
+    /// A path to a stream along a face from something that does not have its rows of cells.
+    StreamRows { item: Item, stream: String, rows: usize } = "network::stream_rows",
+        at Some((*item, Field::To)), says stream_rows(say, stream, *rows),
+        help Some(format!("join a face, or name one of its nodes: `{stream}[1]` to `[{rows}]`"));
     /// A face that a round grid does not have.
     NoFace { item: Item, face: GridFace, name: String } = "network::no_face",
         at Some((*item, Field::To)),
@@ -380,12 +385,13 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     /// Two faces that are joined but of different shapes.
     FaceShapes { item: Item, faces: [GridFace; 2], names: [String; 2] } = "network::face_shapes",
         at Some((*item, Field::To)),
-        says format!("{}, and their shapes do not fit", joins(say, names)),
+        says joins_but(say, names, "and their shapes do not fit"),
         help text("put a massless node between them, with a path to each face");
     /// Two faces that are joined but not divided in the same way: cells of each along its two axes.
     FaceCells { item: Item, faces: [GridFace; 2], names: [String; 2], cells: [[usize; 2]; 2] } =
         "network::face_cells", at Some((*item, Field::To)),
-        says joins_cells(say, names, cells), help text("divide both in the same way along the face");
+        says joins_cells(say, names, cells),
+        help text("divide both in the same way along the face");
     /// Two faces that are joined but not of the same size: lengths of each along its two axes in m.
     FaceSides { item: Item, faces: [GridFace; 2], names: [String; 2], sides: [[f64; 2]; 2] } =
         "network::face_sides", at Some((*item, Field::To)), says joins_sides(say, names, sides),
@@ -393,18 +399,16 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     /// Two faces that are joined but do not overlap: the largest offset along each axis in m.
     FacesApart { item: Item, faces: [GridFace; 2], names: [String; 2], most: [f64; 2] } =
         "network::faces_apart", at Some((*item, Field::Offset)),
-        says format!("{}, but they do not overlap", joins(say, names)),
-        help Some(most_offset(*most));
+        says joins_but(say, names, "but they do not overlap"), help Some(most_offset(*most));
     /// Parameters that change the cells at which two faces touch.
     FacesMoved { item: Item, faces: [GridFace; 2], names: [String; 2] } = "network::faces_moved",
         at Some((*item, Field::To)),
-        says format!("{}, and other cells touch for these parameters", joins(say, names)),
+        says joins_but(say, names, "and other cells touch for these parameters"),
         help text("cells are paired for the values in the file: write the new ones there");
     /// Two faces that parameters move, and a path that cannot follow.
     FacesMoving { item: Item, faces: [GridFace; 2], names: [String; 2] } = "network::faces_moving",
         at Some((*item, Field::To)),
-        says format!("{}, which parameters move on each other", joins(say, names)),
-        help Some(most_pairs());
+        says joins_but(say, names, "which parameters move"), help Some(most_pairs());
     /// A path whose area is not that of the face it ends at, in m^2.
     FaceArea { item: Item, given: f64, face: GridFace, name: String, area: f64 } =
         "network::face_area",

@@ -196,9 +196,9 @@ pub(crate) fn area(sides: [f64; 2]) -> String {
     format!("{} m = {} m^2", by(&sides.map(rounded)), rounded(sides[0] * sides[1]))
 }
 
-/// "`joint` joins `die.z0` to `plate.z1`"
-pub(crate) fn joins(say: &Say<'_>, [from, to]: &[String; 2]) -> String {
-    format!("`{}` joins `{from}` to `{to}`", say.name)
+/// "`joint` joins `die.z0` to `plate.z1`, but .."
+pub(crate) fn joins_but(say: &Say<'_>, [from, to]: &[String; 2], but: &str) -> String {
+    format!("`{}` joins `{from}` to `{to}`, {but}", say.name)
 }
 
 /// The cells of two faces that are joined.
@@ -235,6 +235,22 @@ pub(crate) fn most_pairs() -> String {
     "give `size` and `offset` as numbers, or fewer cells: a path that follows parameters has at \
      most 100000 pairs of cells, and `G` instead of `R`"
         .to_owned()
+}
+
+/// Help for a stream that ends at a face.
+pub(crate) fn stream_help() -> Option<String> {
+    let help = "let the stream pass a node, and join that to the face by a [convection]; one that \
+        warms from row to row has `along` and `direction`";
+    Some(help.to_owned())
+}
+
+/// A path to a stream from something without its rows.
+pub(crate) fn stream_rows(say: &Say<'_>, stream: &str, rows: usize) -> String {
+    format!(
+        "`{}` joins the stream `{stream}` to something else than a face with {rows} rows of cells \
+         along it",
+        say.name
+    )
 }
 
 /// An area in m^2 that is not that of its face.

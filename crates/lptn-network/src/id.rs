@@ -56,6 +56,8 @@ ids! {
     GridId;
     /// A path that ends at a face of a grid.
     FacePathId;
+    /// A stream along a face of a grid.
+    FaceStreamId;
     /// A state of one's own.
     StateId;
     /// A named value.

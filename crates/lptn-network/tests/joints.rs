@@ -155,3 +155,45 @@ fn parameters_move_a_face() {
     refused.connect_at("more", ConductorKind::Resistor, ends, resistance);
     assert_eq!(codes(refused), ["network::faces_moving"]);
 }
+
+/// The stream passes the rows of cells against x; the film of each cell ends at the fluid of its
+/// row.
+#[test]
+fn a_stream_flows_along_a_face() {
+    let mut b = NetworkBuilder::new();
+    let plate = b.grid("plate", block(["6 m", "4 m", "1 m"].map(quantity), &[3, 2]));
+    let at = GridFace { grid: plate, face: Face::Z0 };
+    let inlet = b.boundary("inlet", Temperature(290.0));
+    let water = b.face_stream("water", at, (0, true)).unwrap();
+    assert!(b.face_stream("other", at, (2, false)).is_none());
+    let flow = Path::stream(quantity("5 W/K"));
+    let ends = (inlet.into(), inlet.into());
+    let conductors = b.flow_along(water, ConductorKind::Advection, ends, flow);
+    let film = Path::film(quantity("2 W/(m^2 K)"), b.face_area(at).unwrap());
+    b.connect("film", ConductorKind::Convection, (at, Terminal::Stream(water)), film.clone());
+    let mut refused = b.clone();
+    let network = b.build().unwrap();
+    let named = |name: &str| {
+        let Ok(Item::Conductor(id)) = network.item(name) else { panic!("{name}") };
+        let conductor = &network.conductors()[id.index()];
+        [conductor.from, conductor.to].map(|end| network.name_of(end.into()).into_owned())
+    };
+    assert_eq!(conductors.len(), 4);
+    assert_eq!(named("water.x[1]"), ["inlet", "water[1]"]);
+    assert_eq!(named("water.x[3]"), ["water[2]", "water[3]"]);
+    assert_eq!(named("water"), ["water[3]", "inlet"]);
+    assert_eq!(named("film[1,2]"), ["plate.z0[1,2]", "water[3]"]);
+    assert_eq!(named("film[3,1]"), ["plate.z0[3,1]", "water[1]"]);
+    // y1 has three cells along x, x1 none
+    for (face, expected) in [(Face::Y1, vec![]), (Face::X1, vec!["network::stream_rows"])] {
+        let mut b = refused.clone();
+        let at = GridFace { grid: plate, face };
+        b.connect("more", ConductorKind::Convection, (at, Terminal::Stream(water)), film.clone());
+        let found = codes(b);
+        assert!(expected.is_empty() || found == expected, "{found:?}");
+    }
+    let node = refused.node_named("plate[1,1]").unwrap();
+    let ends = (Terminal::from(node), Terminal::Stream(water));
+    refused.connect("more", ConductorKind::Convection, ends, film);
+    assert_eq!(codes(refused), ["network::stream_rows"]);
+}

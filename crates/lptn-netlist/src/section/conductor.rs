@@ -5,7 +5,7 @@ use lptn_units::{Dimension, Type};
 
 use crate::fields::Fields;
 use crate::raw::{RawEntry, RawValue};
-use crate::section::path_section::{OFFSET, PATHS, PathSection};
+use crate::section::path_section::{ALONG, DIRECTION, OFFSET, PATHS, PathSection};
 use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {
@@ -22,6 +22,12 @@ impl<'a> Elaboration<'a> {
     fn conductor(&mut self, entry: &'a RawEntry, of: &'static PathSection) -> Option<()> {
         let section = &of.section;
         let mut fields = self.fields(section, entry)?;
+        if fields.known(ALONG) && fields.get(ALONG).is_some() {
+            return self.flow_along(entry, of, &fields);
+        }
+        if fields.known(ALONG) {
+            self.refuse_keys(&fields, &[DIRECTION], "has no effect without `along`");
+        }
         let (from, to) = (self.terminal(&fields, "from"), self.terminal(&fields, "to"));
         let placement = self.placement(&fields, [&from, &to]);
         fields.area = self.area_of(&fields, [&from, &to], &placement);
@@ -47,7 +53,7 @@ impl<'a> Elaboration<'a> {
         Some(())
     }
 
-    fn map_fields(
+    pub(super) fn map_fields(
         &mut self,
         (item, path): (Item, &PathSection),
         fields: &Fields<'a>,

@@ -21,6 +21,10 @@ impl<'a> Elaboration<'a> {
         key: &str,
     ) -> Option<(Terminal, &'a RawValue)> {
         let (name, raw) = self.required_word(fields, key)?;
+        let full = self.names.structure.inside(&raw.span, name);
+        if let Some(id) = full.as_deref().and_then(|name| self.names.streams.get(name)) {
+            return Some((Terminal::Stream(*id), raw));
+        }
         match self.face_at(&raw.span, name) {
             Some(at) => Some((at.into(), raw)),
             _ => self.named_end(fields, key, (name, raw)).map(|(end, raw)| (end.into(), raw)),
@@ -62,7 +66,7 @@ impl<'a> Elaboration<'a> {
 
     /// The face that a name means at `place`, also the end of a rod, whose one surface has the same
     /// name.
-    fn face_at(&self, place: &Span, name: &str) -> Option<GridFace> {
+    pub(crate) fn face_at(&self, place: &Span, name: &str) -> Option<GridFace> {
         let full = self.names.structure.inside(place, name)?;
         match self.names.grid_part(&full)? {
             (_, GridPart::Face(at)) => Some(at),
@@ -280,7 +284,7 @@ impl<'a> Elaboration<'a> {
 pub(crate) fn faces(ends: [&Option<(Terminal, &RawValue)>; 2]) -> Vec<GridFace> {
     let face = |(terminal, _): &(Terminal, &RawValue)| match terminal {
         Terminal::Face(at) => Some(*at),
-        Terminal::End(_) => None,
+        Terminal::End(_) | Terminal::Stream(_) => None,
     };
     ends.into_iter().flatten().filter_map(face).collect()
 }

@@ -28,6 +28,7 @@ mod property;
 mod signal;
 mod source;
 mod state;
+mod stream_along;
 mod table;
 mod top;
 

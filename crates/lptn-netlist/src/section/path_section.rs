@@ -85,6 +85,9 @@ fn keys(kind: Kind, values: &[PathValue]) -> Vec<KeyDeclaration> {
     if joins_faces(kind) {
         keys.extend(PLACE);
     }
+    if kind == Kind::Advection {
+        keys.extend(STREAM);
+    }
     let first = kind.laws_named(true).next().map_or("", |law| law.declaration().name);
     let mut selector = kind.declaration().selector.map(|name| {
         let mut laws: Vec<&str> = Vec::new();
@@ -191,6 +194,25 @@ const PLACE: [KeyDeclaration; 2] = [
         "[\"y\", \"-x\"]",
     )
     .or("in the order x, y, z"),
+];
+
+/// The keys of a stream along a face.
+pub(crate) const ALONG: &str = "along";
+pub(crate) const DIRECTION: &str = "direction";
+
+const STREAM: [KeyDeclaration; 2] = [
+    text(
+        ALONG,
+        "face of a grid",
+        "a face along which the stream flows, row by row",
+        "\"plate.z0\"",
+    ),
+    text(
+        DIRECTION,
+        "axis",
+        "the axis along the face in which it flows, `\"-x\"` against it",
+        "\"x\"",
+    ),
 ];
 
 /// True for paths that two faces may share in part.

@@ -5,7 +5,7 @@ use lptn_network::{Form, GridFace, Input, Placement, Terminal};
 use lptn_units::{Dimension, Type};
 
 use crate::fields::Fields;
-use crate::place::Wanted;
+use crate::place::{Place, Wanted};
 use crate::raw::{RawKind, RawValue};
 use crate::section::end::faces;
 use crate::section::path_section::{AXES, OFFSET};
@@ -47,7 +47,12 @@ impl<'a> Elaboration<'a> {
     fn offset(&mut self, fields: &Fields<'a>) -> Option<[Input; 2]> {
         let [a, b] = self.two(fields, (OFFSET, "a list of two lengths"))?;
         let wanted = Wanted::constant(LENGTH);
-        Some([a, b].map(|raw| self.input_at(fields, OFFSET, raw, wanted)))
+        let mut read = |raw| {
+            let place = Place { owner: &fields.owner, key: OFFSET, raw };
+            Some(self.given(place, wanted)?.input())
+        };
+        let (a, b) = (read(a), read(b));
+        Some([a?, b?])
     }
 
     /// `axes = ["y", "-x"]`.

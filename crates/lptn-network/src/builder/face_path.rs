@@ -49,6 +49,7 @@ impl NetworkBuilder {
         let (joint, end) = (Joint::CellByCell, first);
         let mut face_path = FacePath { name, kind, from, to, area, placement, joint, first, end };
         let problem = self.face_path_problem(&face_path, item, path.is_stream());
+        let problem = problem.or_else(|| self.stream_problem(&face_path, item));
         let problem = problem.or_else(|| self.overlap(&mut face_path, item, &path).err());
         match problem {
             Some(problem) => {
@@ -67,8 +68,7 @@ impl NetworkBuilder {
     fn join(&mut self, mut face_path: FacePath, (item, path): (Item, Path)) -> Item {
         let named = face_path.faces().next();
         let indices = named.map_or_else(Vec::new, |at| self.face_indices(at));
-        let (from, to) =
-            (self.ends(face_path.from, indices.len()), self.ends(face_path.to, indices.len()));
+        let (from, to) = (self.ends(face_path.from, named), self.ends(face_path.to, named));
         face_path.first = self.next_conductor();
         let whole = indices.iter().any(|index| !index.is_empty());
         if whole {
@@ -107,9 +107,16 @@ impl NetworkBuilder {
         grid.face_places(at.face).map(|place| grid.parts_of_face(at.face, place)).collect()
     }
 
-    pub(super) fn ends(&mut self, terminal: Terminal, count: usize) -> Vec<End> {
+    /// The ends at a terminal, one for each cell of the face that names the parts.
+    pub(super) fn ends(&mut self, terminal: Terminal, named: Option<GridFace>) -> Vec<End> {
         match terminal {
-            Terminal::End(end) => vec![end; count],
+            Terminal::End(end) => {
+                vec![
+                    end;
+                    named.map_or(0, |at| self.parts.grids[at.grid.index()].face_count(at.face))
+                ]
+            }
+            Terminal::Stream(id) => named.map_or_else(Vec::new, |at| self.rows_of(id, at)),
             Terminal::Face(at) => {
                 self.surfaces(at.grid, at.face).into_iter().map(End::Node).collect()
             }

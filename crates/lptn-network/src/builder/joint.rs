@@ -116,7 +116,7 @@ impl NetworkBuilder {
     /// Adds a conductor for each pair of cells.
     pub(super) fn join_pairs(&mut self, mut path: FacePath, (item, law): (Item, &Path)) -> Item {
         let (Terminal::Face(from), Terminal::Face(to)) = (path.from, path.to) else { return item };
-        let ends = [path.from, path.to].map(|terminal| self.ends(terminal, 0));
+        let ends = [path.from, path.to].map(|terminal| self.ends(terminal, None));
         path.first = self.next_conductor();
         let parts = self.parts_of_pairs(&path, [from, to], law);
         let grids = [from, to].map(|at| self.parts.grids[at.grid.index()].clone());

@@ -2,6 +2,7 @@
 
 pub(crate) mod control;
 pub(crate) mod face_path;
+mod face_stream;
 pub(crate) mod grid;
 mod grid_path;
 mod joint;

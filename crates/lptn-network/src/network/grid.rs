@@ -67,6 +67,7 @@ impl Network {
         match terminal {
             Terminal::End(end) => self.name_of(end.into()).into_owned(),
             Terminal::Face(at) => self.grids()[at.grid.index()].face_name(at.face),
+            Terminal::Stream(id) => self.parts.face_streams[id.index()].name.clone(),
         }
     }
 

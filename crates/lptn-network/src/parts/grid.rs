@@ -10,7 +10,7 @@
 
 use lptn_laws::Kind;
 
-use crate::id::{BoundaryId, ConductorId, End, GridId, Item, MaterialId, NodeId};
+use crate::id::{BoundaryId, ConductorId, End, FaceStreamId, GridId, Item, MaterialId, NodeId};
 pub use crate::parts::face::Face;
 use crate::parts::overlap::{Joint, Placement};
 use crate::parts::rings::Rings;
@@ -177,6 +177,8 @@ pub enum Terminal {
     End(End),
     /// A face of a grid.
     Face(GridFace),
+    /// A stream along a face: the fluid of each row of cells.
+    Stream(FaceStreamId),
 }
 
 impl From<End> for Terminal {
@@ -237,7 +239,7 @@ impl FacePath {
     pub fn faces(&self) -> impl Iterator<Item = GridFace> + use<> {
         [self.from, self.to].into_iter().filter_map(|terminal| match terminal {
             Terminal::Face(face) => Some(face),
-            Terminal::End(_) => None,
+            Terminal::End(_) | Terminal::Stream(_) => None,
         })
     }
 }
