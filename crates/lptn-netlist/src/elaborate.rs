@@ -90,6 +90,7 @@ pub(crate) fn elaborate(
     work.nodes(default.initial.as_ref());
     work.import_nodes(import.as_ref(), default.initial.as_ref());
     work.grids(default.initial.as_ref());
+    work.streams_along();
     work.boundaries();
     work.import_boundaries(import.as_ref());
     let states = work.states();

@@ -63,6 +63,7 @@ mod names;
 mod near_file;
 mod netlist;
 mod outputs;
+mod overhang;
 mod parameters;
 mod pipe;
 mod place;

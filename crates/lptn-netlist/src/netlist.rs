@@ -23,6 +23,7 @@ use crate::head;
 use crate::import;
 use crate::include::{self, Loader, Merged};
 use crate::initial::{self, InitialState, StateFile};
+use crate::overhang;
 use crate::pipe;
 use crate::plausible;
 use crate::posterior::Believed;
@@ -93,6 +94,7 @@ impl Netlist {
         all.extend(streams::wrong_outlets(network, map, start));
         all.extend(plausible::materials(network, map));
         all.extend(plausible::neighbours(network, map));
+        all.extend(overhang::warnings(network, map));
         all.extend(gearbox::doubts(network, map, &self.gearboxes));
         all.extend(assumed::mean_conductivities(network, map));
         all.extend(unlikely::values(network, map));

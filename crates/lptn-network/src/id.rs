@@ -56,6 +56,8 @@ ids! {
     GridId;
     /// A path that ends at a face of a grid.
     FacePathId;
+    /// A stream along a face of a grid.
+    FaceStreamId;
     /// A state of one's own.
     StateId;
     /// A named value.
@@ -236,6 +238,8 @@ pub enum Field {
     UsualSize,
     /// Content of a pipe.
     PipeContent,
+    /// Place of a face on another one.
+    Offset,
 }
 
 /// A field of a law; those of one key are one field, whatever the law.
@@ -344,6 +348,7 @@ impl Field {
             Self::Most => "max",
             Self::UsualSize => "size",
             Self::PipeContent => "content",
+            Self::Offset => "offset",
         }
     }
 }

@@ -23,10 +23,12 @@ mod node;
 mod path;
 mod path_law;
 mod path_section;
+mod placement;
 mod property;
 mod signal;
 mod source;
 mod state;
+mod stream_along;
 mod table;
 mod top;
 

@@ -2,8 +2,10 @@
 
 pub(crate) mod control;
 pub(crate) mod face_path;
+mod face_stream;
 pub(crate) mod grid;
 mod grid_path;
+mod joint;
 pub(crate) mod lookup;
 pub(crate) mod numbered;
 mod pipe;

@@ -9,6 +9,7 @@ pub(crate) mod control;
 pub(crate) mod dependence;
 pub(crate) mod element;
 pub(crate) mod face;
+pub(crate) mod face_stream;
 pub(crate) mod grid;
 pub(crate) mod grid_names;
 mod grid_parts;
@@ -20,7 +21,9 @@ pub(crate) mod label;
 pub(crate) mod layout;
 pub(crate) mod named;
 pub(crate) mod named_value;
+pub(crate) mod overlap;
 pub(crate) mod pipe;
+pub(crate) mod placement;
 pub(crate) mod reads;
 pub(crate) mod result;
 pub(crate) mod rings;
@@ -46,6 +49,7 @@ use crate::name_index::NameIndex;
 use crate::parts::control::Control;
 use crate::parts::dependence::{Dependence, OfConductor};
 use crate::parts::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
+use crate::parts::face_stream::FaceStream;
 use crate::parts::grid::{FacePath, Grid, Inner};
 use crate::parts::label::{CONDUCTOR, Label, parsed};
 use crate::parts::layout::Layout;
@@ -80,6 +84,7 @@ pub(crate) struct Parts {
     pub(crate) fluids: Vec<Fluid>,
     pub(crate) grids: Vec<Grid>,
     pub(crate) face_paths: Vec<FacePath>,
+    pub(crate) face_streams: Vec<FaceStream>,
     /// The nodes and conductors that are parts of grids and joints, in order.
     pub(crate) inner_nodes: Vec<Inner>,
     pub(crate) inner_conductors: Vec<Inner>,
