@@ -9,6 +9,7 @@ pub(crate) mod control;
 pub(crate) mod dependence;
 pub(crate) mod element;
 pub(crate) mod face;
+pub(crate) mod functional;
 pub(crate) mod grid;
 pub(crate) mod grid_names;
 mod grid_parts;
