@@ -85,6 +85,7 @@ pub use parts::control::{Acts, Control, Thermostat};
 pub use parts::dependence::Vertices;
 pub use parts::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
 pub use parts::face_stream::FaceStream;
+pub use parts::functional::{Functional, History, OverTime};
 pub use parts::grid::{Face, FacePath, Grid, GridFace, MOST_CELLS, Substance, Terminal};
 pub use parts::grid_value::GridValue;
 pub use parts::heat::HeatOf;

@@ -17,6 +17,7 @@ use crate::events::{Switching, Trouble, find_crossings};
 use crate::growth::Growth;
 use crate::guard::{Guard, Verdict};
 use crate::heat::Heat;
+use crate::limit;
 use crate::method::Method;
 use crate::pipe::Shared;
 use crate::readings::Readings;
@@ -31,6 +32,7 @@ use crate::stop_reason::StopReason;
 use crate::tangent::Tangent;
 use crate::times::{Segment, check_resolution, segments, snap};
 use crate::unsolved::Unsolved;
+use crate::window::Window;
 
 use guarded::Effort;
 pub(crate) use rest::{FINE, MOVED, ROUGH, Way, rest};
@@ -108,8 +110,10 @@ impl Transient {
         breakpoints.dedup();
         let segments = segments(self.start, self.stop, &breakpoints);
         let curved = Curved::of(system, &segments, &rows);
-        let readings = Readings::new(network, &segments, &rows, &self.windows)
-            .map_err(TransientError::Input)?;
+        let of_limits = limit::window(network, (self.start, self.stop));
+        let windows: Vec<Window> = self.windows.iter().cloned().chain(of_limits).collect();
+        let readings =
+            Readings::new(network, &segments, &rows, &windows).map_err(TransientError::Input)?;
         let recorder = Recorder::new(system, (rows, readings), self)?;
         if system.states().is_empty() {
             return stateless::solve(recorder, &segments, &self.books(network)).map(Some);

@@ -179,8 +179,9 @@ impl Writer<'_> {
 /// The limited quantity with every instance of its families.
 fn whole(limit: &Limit) -> String {
     match (&limit.of, limit.text.contains("[*]")) {
-        (Value::Expression(program), true) if limit.of_mean => format!("mean({})", program.text()),
-        (Value::Expression(program), true) => program.text().trim().to_owned(),
+        (Value::Expression(program), true) if limit.is_of_moments() => {
+            program.text().trim().to_owned()
+        }
         _ => limit.text.clone(),
     }
 }

@@ -10,6 +10,7 @@ pub(crate) mod dependence;
 pub(crate) mod element;
 pub(crate) mod face;
 pub(crate) mod face_stream;
+pub(crate) mod functional;
 pub(crate) mod grid;
 pub(crate) mod grid_names;
 mod grid_parts;
