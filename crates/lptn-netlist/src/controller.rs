@@ -11,8 +11,8 @@
 
 use std::sync::Arc;
 
-use lptn_data::Diagnostic;
-use lptn_units::{Dimension, Expression, Type};
+use lptn_data::{Diagnostic, Span};
+use lptn_units::{Dimension, Expression, Type, parse_quantity};
 
 use crate::fields::{Fields, Owner};
 use crate::format::{Role, SectionDeclaration, akin, key, text, words, words_of};
@@ -143,6 +143,8 @@ impl<'r> Controller<'r> {
         let mut new = Self { raw, structure, entry, fields, here, sense, made: Vec::new() };
         let warms = new.warms(problems)?;
         new.pairs(problems)?;
+        new.numbers(problems)?;
+        new.has_temperature(problems)?;
         if there.contains(&false) {
             return None;
         }
@@ -181,6 +183,69 @@ impl<'r> Controller<'r> {
             right &= self.fields.require("lag", problems).is_some();
         }
         right.then_some(())
+    }
+
+    /// The number of a key in SI units, if it is written as one.
+    fn number(&self, key: &str) -> Option<(f64, &'r Span)> {
+        let raw = self.fields.get(key)?;
+        let text = match &raw.kind {
+            RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => text,
+            _ => return None,
+        };
+        Some((parse_quantity(text, None).ok()?.value, &raw.span))
+    }
+
+    /// Refuses limits that are exchanged, and gains of 0 that `tracking` divides by.
+    fn numbers(&self, problems: &mut Vec<Diagnostic>) -> Option<()> {
+        let owner = &self.fields.owner;
+        let before = problems.len();
+        if let (Some((min, _)), Some((max, at))) = (self.number("min"), self.number("max"))
+            && min >= max
+        {
+            let message = format!("{} is not above `min`", owner.field("max"));
+            let help = "exchange them: `min` is the least output, `max` the greatest";
+            problems.push(Diagnostic::wrong("netlist::controller_limits", message, at, help));
+        }
+        let gains = [
+            ("K_i", "leave `K_i` out: a controller without it is proportional"),
+            (
+                "K_p",
+                "add the time in which the integral goes back to a limit: `tracking = \"60 s\"`",
+            ),
+        ];
+        let default = self.fields.get("K_i").is_some() && self.fields.get("tracking").is_none();
+        for (key, help) in gains.into_iter().filter(|_| default) {
+            let Some((_, at)) = self.number(key).filter(|(value, _)| *value == 0.0) else {
+                continue;
+            };
+            let message =
+                format!("`{key}` of {} is 0, and `tracking` is `abs(K_p / K_i)`", owner.words());
+            problems.push(Diagnostic::wrong("netlist::controller_tracking", message, at, help));
+        }
+        (problems.len() == before).then_some(())
+    }
+
+    /// Refuses a sensed name that is a value, which has no temperature.
+    fn has_temperature(&self, problems: &mut Vec<Diagnostic>) -> Option<()> {
+        let at = &self.fields.get("sense")?.span;
+        let full = self.structure.resolve(at, self.sense);
+        let is = |kind: &&ValueKind| {
+            self.raw.elements(kind.section()).iter().any(|entry| entry.key == full)
+        };
+        let kinds = [ValueKind::State, ValueKind::Value, ValueKind::Parameter, ValueKind::Signal];
+        let own = self.entry.key == full;
+        let Some(word) =
+            kinds.iter().find(is).map(|kind| kind.word()).or(own.then_some("controller"))
+        else {
+            return Some(());
+        };
+        let message = format!(
+            "{} is {word} `{full}`, which has no temperature",
+            self.fields.owner.field("sense")
+        );
+        let help = "name a [node] or a [boundary]: the controller senses its temperature";
+        problems.push(Diagnostic::wrong("netlist::controller_sense", message, at, help));
+        None
     }
 
     fn put(&mut self, section: &'static str, name: &str, value: RawValue) {

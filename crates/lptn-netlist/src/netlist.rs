@@ -253,7 +253,8 @@ fn written_out(files: &mut Files, raw: RawNetlist) -> (Expanded, WrittenOut) {
     let Expanded { raw, structure, problems } = &mut expanded;
     let mut gears = gearbox::expand(raw, structure, problems);
     gears.types.extend(controller::expand(raw, structure, problems));
-    let chains = foster::expand(raw, structure, problems);
+    let (chains, types) = foster::expand(raw, structure, problems);
+    gears.types.extend(types);
     let pipes = pipe::expand(raw, structure);
     (expanded, WrittenOut { gears, chains, pipes })
 }
