@@ -13,7 +13,6 @@ use lptn_network::{Network, Parameters, RunSettings, Value};
 use lptn_units::Unit;
 
 use crate::assumed;
-use crate::controller;
 use crate::csv_files::CsvFiles;
 use crate::elaborate::{Elaborated, elaborate};
 use crate::foreign;
@@ -35,6 +34,7 @@ use crate::syntax_error::NOT_CLOSED;
 use crate::template::{self, Expanded, Structure};
 use crate::uncertainty::{self, UncertaintyPlan};
 use crate::unlikely;
+use crate::{controller, hydraulic};
 
 /// A network as a netlist describes it, with the way back to the text.
 #[derive(Clone, Debug)]
@@ -235,11 +235,12 @@ fn whole(name: &str, text: &str, loader: Option<&mut Loader<'_>>) -> Result<Netl
     Err(Rejected { syntax, ..Rejected::arranged(files, diagnostics, found.dropped) })
 }
 
-/// Every template, gearbox, controller and chain as elements.
+/// Every template, gearbox, flow network, controller and chain as elements.
 fn written_out(files: &mut Files, raw: RawNetlist) -> (Expanded, Gears, Vec<Chain>) {
     let mut expanded = template::expand(files, raw, section::format());
     let Expanded { raw, structure, problems } = &mut expanded;
     let mut gears = gearbox::expand(raw, structure, problems);
+    gears.types.extend(hydraulic::expand(raw, structure, problems));
     gears.types.extend(controller::expand(raw, structure, problems));
     let chains = foster::expand(raw, structure, problems);
     (expanded, gears, chains)

@@ -40,7 +40,7 @@ pub(crate) fn free(
     let mut free = Vec::new();
     for unknown in all {
         let state = system.network().state_at(system.unknowns()[unknown]);
-        match state.filter(|_| !reads[unknown]) {
+        match state.filter(|state| !state.balanced && !reads[unknown]) {
             None => free.push(unknown),
             Some(state) => at_rest(state, flow[unknown])?,
         }
