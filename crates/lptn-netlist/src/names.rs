@@ -10,6 +10,7 @@ use lptn_units::Expression;
 
 use crate::format::NetlistFormat;
 use crate::grid_part::KnownGrid;
+use crate::hydraulic;
 use crate::raw::{RawEntry, RawKind, RawNetlist};
 use crate::template::Structure;
 
@@ -257,7 +258,8 @@ impl Names {
         unused.filter_map(|name| {
             let (kind, span, _) = self.values.get(name)?;
             // a state is a result by itself
-            (*kind != ValueKind::State).then_some(())?;
+            // so is the flow of a branch in another unit
+            (*kind != ValueKind::State && !hydraulic::is_result(name)).then_some(())?;
             Some((*kind, name.as_str(), span))
         })
     }

@@ -230,6 +230,8 @@ pub enum Field {
     Start,
     /// Rate of change of a state.
     Rate,
+    /// Expression whose zero determines a state.
+    Balance,
     /// Least value of a state.
     Least,
     /// Greatest value of a state.
@@ -344,6 +346,7 @@ impl Field {
             Self::CharacteristicLength => "L_char",
             Self::Start => "start",
             Self::Rate => "rate",
+            Self::Balance => "balance",
             Self::Least => "min",
             Self::Most => "max",
             Self::UsualSize => "size",

@@ -21,7 +21,8 @@ impl Writer<'_> {
         let per_second = state.ty.dimension.checked_div(Dimension::TIME).map_or(state.ty, Type::of);
         let source = state.source.map(|id| &self.network.sources()[id.index()]);
         let rate = source.and_then(|source| source.power());
-        rate.into_iter().for_each(|rate| fields.put("rate", like(rate, per_second)));
+        let key = state.law().key();
+        rate.into_iter().for_each(|rate| fields.put(key, like(rate, per_second)));
         let values =
             [("start", &state.start), ("min", &state.bounds[0]), ("max", &state.bounds[1])];
         for (key, given) in values {
