@@ -24,7 +24,7 @@ pub(super) struct Branch {
     pub(super) yields: bool,
 }
 
-/// What a law needs of its fluid.
+/// The properties of its fluid that a law needs.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 enum Needs {
     Nothing,
@@ -181,7 +181,7 @@ impl Reading<'_, '_> {
         self.out.typed(key, ty);
     }
 
-    /// Density and viscosity; what is known of them.
+    /// Density and viscosity, as far as they are known.
     fn fluid(&mut self, needs: Needs, problems: &mut Vec<Diagnostic>) -> Option<Needs> {
         let fields = self.fields;
         if let Some(raw) = fields.get("lubricant") {

@@ -8,7 +8,7 @@ use crate::hydraulic::JUNCTION;
 use crate::hydraulic::branch::Branch;
 use crate::raw::{RawEntry, RawKind};
 
-/// Reports what prevents pressures from being determined.
+/// Reports parts of a circuit whose pressures nothing determines.
 pub(super) fn check(junctions: &[RawEntry], branches: &[Branch], problems: &mut Vec<Diagnostic>) {
     let number: HashMap<&str, usize> =
         junctions.iter().enumerate().map(|(i, junction)| (junction.key.as_str(), i)).collect();

@@ -42,14 +42,6 @@ pub(crate) const INNER: [&str; 11] = [
     "sqrt_f_Re",
 ];
 
-/// Values `NAME.KEY` that are results, whether or not something reads them.
-const RESULTS: [&str; 3] = ["volume_flow", "Re", "power"];
-
-/// True for the name of such a result in a flat netlist.
-pub(crate) fn is_result(name: &str) -> bool {
-    name.rsplit_once('.').is_some_and(|(_, key)| RESULTS.contains(&key))
-}
-
 /// Pressures in Pa.
 const PRESSURE: Type = Type::of(Dimension::PRESSURE);
 
