@@ -15,6 +15,7 @@ use crate::initial::StateFile;
 use crate::names::Names;
 use crate::raw::{RawEntry, RawNetlist};
 use crate::scales::Scales;
+use crate::section::texture::Texture;
 use crate::source_map::SourceMap;
 use crate::template::Structure;
 
@@ -95,6 +96,7 @@ pub(crate) struct Known {
     pub(crate) density: bool,
     pub(crate) cp: bool,
     pub(crate) k: bool,
+    pub(crate) texture: Texture,
 }
 
 /// A fluid in use or ready to be.

@@ -204,6 +204,15 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             say.item(*item), formula.declaration().name
         ),
         help Some(format!("its fields are {}", keys(*formula)));
+    /// A winding whose wires and enamel fill more than round wires can.
+    Overfilled { item: Item, share: f64 } = "network::overfilled",
+        at Some((*item, Field::Fill)),
+        says format!(
+            "wires and enamel of {} fill {} of the volume",
+            say.item(*item), format_short(*share)
+        ),
+        help text("round wires fill at most 0.907: check `fill` and `enamel_fill`, which are shares \
+            of the whole volume");
     /// A liquidus below the solidus, in K.
     Melting { item: Item, solidus: f64, liquidus: f64 } = "network::melting",
         at Some((*item, Field::Liquidus)),

@@ -126,7 +126,7 @@ pub(crate) fn in_unit(value: f64, field: Field) -> String {
         Field::Volume => Dimension::VOLUME,
         Field::Density => Dimension::DENSITY,
         Field::SpecificHeat => Dimension::SPECIFIC_HEAT,
-        Field::Conductivity => Dimension::CONDUCTIVITY,
+        Field::Conductivity | Field::AxialConductivity => Dimension::CONDUCTIVITY,
         Field::Size | Field::CharacteristicLength => Dimension::LENGTH,
         Field::Law(law) if !law.ty.absolute && !law.ty.is_scalar() => {
             let (unit, scale) = law.unit();
@@ -153,8 +153,10 @@ pub(crate) fn not_positive(field: Field, value: f64) -> &'static str {
         | Field::Volume
         | Field::Density
         | Field::SpecificHeat
+        | Field::AxialConductivity
         | Field::Conductivity => "a body has a mass, a volume and properties of more than zero",
         Field::Size | Field::CharacteristicLength => "a body has dimensions of more than zero",
+        Field::Fill => "a winding has a conductor: its share is above 0",
         Field::Sector => "leave `angle` out for the full circle, or give one above 0 deg",
         Field::LatentHeat => "melting takes up heat: give it as a positive number",
         _ => "check the sign: heat flows from the warm to the cold end, whichever is named first",

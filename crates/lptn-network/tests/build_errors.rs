@@ -173,7 +173,10 @@ fn types_of_every_field() {
             };
             let (density, cp, k) =
                 (Some(quantity("1 m")), Some(quantity("1 m")), Some(quantity("1 m")));
-            b.material("m", Properties { density, cp, k, melting: Some(melting), source: None });
+            b.material(
+                "m",
+                Properties { density, cp, k, melting: Some(melting), ..Properties::default() },
+            );
         },
         6,
     );

@@ -28,7 +28,9 @@ mod signal;
 mod source;
 mod state;
 mod table;
+pub(crate) mod texture;
 mod top;
+mod winding;
 
 pub(crate) use control::{CONTROL, narrow};
 pub(crate) use default::{Default, Initial};

@@ -15,6 +15,7 @@ use crate::section::path_law::{
     Read, not_a_list, of_values, types, with_article, without, written, wrong_count,
 };
 use crate::section::path_section::{PathSection, PathValue};
+use crate::section::texture::DIRECTION_OF;
 use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {
@@ -63,6 +64,9 @@ impl<'a> Elaboration<'a> {
         let material = declared.find(|field| field.property == Some(Substance::Material));
         if let Some(field) = material {
             self.problems.extend(check_forms(fields, &[&["material"], &[field.key]]));
+            if fields.get("material").is_none() {
+                self.refuse_keys(fields, &[DIRECTION_OF.name], "has no effect without `material`");
+            }
         }
         let fluid = self.film_fluid(fields, law);
         let own = path.values.iter().filter(|value| law.field(value.field.key).is_some());
@@ -238,13 +242,13 @@ impl<'a> Elaboration<'a> {
     /// The conductivity of the material.
     fn property_of_material(&mut self, fields: &Fields<'a>) -> Option<Input> {
         let (name, raw) = self.word(fields, "material")?;
-        let known = self.known_material(fields, name, raw)?;
+        let known = self.known_material(fields, ("material", name), raw)?;
         if !known.k {
             let problem = self.without_property(fields, (name, raw), known.id, "k");
             self.report(problem);
             return None;
         }
-        self.builder.conductivity(known.id)
+        self.directed(fields, (name, known))
     }
 
     /// True if a word is similar to one that may replace a number in a field; this is reported.

@@ -9,6 +9,7 @@ use lptn_units::{Type, format_number};
 use crate::format::{KeyDeclaration, Role, SectionDeclaration, Takes, shaped, text, words};
 use crate::section::keys::{AT, FLUID_OF, LUBRICANT_OF, MATERIAL_OF};
 use crate::section::path_law::{count, counts, types};
+use crate::section::texture::DIRECTION_OF;
 
 /// A kind of path or source with the consequences of its declaration, found once for all paths.
 pub(crate) struct PathSection {
@@ -100,7 +101,7 @@ fn keys(kind: Kind, values: &[PathValue]) -> Vec<KeyDeclaration> {
         let of_fluid = laws().any(|law| law.declaration().carries.is_of_fluid());
         let substance = match field.property {
             _ if of_fluid => &[STREAMS][..],
-            Some(Substance::Material) => &[MATERIAL_OF],
+            Some(Substance::Material) => &[MATERIAL_OF, DIRECTION_OF],
             Some(Substance::Fluid) => &[FLUID_OF],
             Some(Substance::Lubricant) => &[LUBRICANT_OF, AT],
             None => &[],
