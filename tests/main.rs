@@ -21,6 +21,8 @@ mod expand;
 mod fuzz;
 mod gears;
 mod grid_faces;
+mod grid_joints;
+mod grid_streams;
 mod grids;
 mod import;
 #[path = "support/kind_page.rs"]

@@ -5,10 +5,11 @@
 
 use lptn_analysis::{Simulation, SimulationError};
 use lptn_network::{
-    Acts, Bound, Conductance, Context, HeatCapacity, IntegratorChoice, LimitSeverity, Network,
-    NetworkBuilder, OutputTimes, RunSettings, Temperature, Thermostat, Time,
+    Acts, Bound, Conductance, Context, Functional, HeatCapacity, IntegratorChoice, LimitSeverity,
+    Network, NetworkBuilder, OutputTimes, OverTime, RunSettings, Temperature, Thermostat, Time,
 };
 use lptn_solve::{EventIndicator, EventKind, PositiveSide, Unsolved};
+use lptn_units::Type;
 
 const C: f64 = 600.0;
 const G: f64 = 3.0;
@@ -49,7 +50,9 @@ fn network(dwell: f64) -> Network {
     b.limit("flow", (of.into(), "skin.Q"), (Bound::Above, value.into()), error);
     let (of, value) = (result(&mut b, "body.T"), result(&mut b, "60 [degC]"));
     let mean = b.limit("usual", (of.into(), "body.T"), (Bound::Below, value.into()), error);
-    b.limit_of_mean(mean);
+    let of_ty = Type::ABSOLUTE_TEMPERATURE;
+    let functional = Functional::Mean;
+    b.limit_over_time(mean, OverTime { functional, of_ty, life: None });
     b.build().unwrap()
 }
 

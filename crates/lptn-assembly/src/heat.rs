@@ -6,7 +6,7 @@
 //! of two temperatures that agree to the last digit. The energy balance therefore does not test the
 //! elimination; closed forms and random networks do.
 
-use lptn_network::{ConductorId, InputError, Item, Received, Surface};
+use lptn_network::{ConductorId, InputError, Item, Received, SourceId, Surface};
 
 use crate::system::ThermalSystem;
 use crate::workspace::Workspace;
@@ -82,6 +82,24 @@ impl ThermalSystem {
             heat[a - nodes] += q;
             heat[b - nodes] -= q;
         }
+    }
+
+    /// The heat of a source in W at the inputs last read and the temperatures `y` of the unknowns.
+    ///
+    /// # Errors
+    /// As [`ThermalSystem::flow`].
+    pub fn source_heat(
+        &self,
+        work: &mut Workspace,
+        id: SourceId,
+        y: &[f64],
+    ) -> Result<f64, InputError> {
+        if self.network.source_variables(id).is_empty() {
+            return Ok(work.power[id.index()]);
+        }
+        self.put(work, y);
+        let (scope, temperature) = work.current();
+        self.network.source_heat(id, scope, temperature)
     }
 
     /// The conductors that are streams.

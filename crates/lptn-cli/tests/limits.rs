@@ -246,3 +246,36 @@ fn the_mean_of_one_value_is_that_over_the_run() {
     let size = folder.run(&["size", "net.toml"]).exits(0);
     size.prints("over the run of 10 min").prints("P = 13.333");
 }
+
+/// The rise is P R (1 - exp(-t/tau)) with R = 0.5 K/W and tau = 500 s. It is above 40 K for 200 s of
+/// 1000 s if it reaches 40 K at 800 s; its integral is P R (1000 s - tau (1 - exp(-2))).
+#[test]
+fn numbers_over_time_are_limits_and_requirements_and_stay_in_an_expansion() {
+    let net = "format = 1\n[param]\nP = \"160 W\"\n[node]\na = { C = \"1 kJ/K\", T0 = \"20 degC\" }\n\
+               [boundary]\nair = { T = \"20 degC\" }\n[resistor]\nr = { from = \"a\", to = \"air\", R = \
+               \"0.5 K/W\" }\n[source]\ns = { into = \"a\", P = \"P\" }\n[run]\nstop = \"1000 s\"\n[limit]\n\
+               hot = { of = \"time_over(a.T, 60 [degC])\", below = \"200 s\" }\n\
+               heat = { of = \"integral(r.Q)\", below = \"100 kJ\" }\n\
+               [size.most]\nmaximise = \"P\"\nvary = { P = { from = \"50 W\", to = \"300 W\" } }\n\
+               require = [\"200 [s] >= time_over(a.T, 60 [degC])\"]\nover = \"run\"\n";
+    let folder = Folder::with("net.toml", net);
+    let flat = folder.run(&["check", "net.toml", "--expand"]).exits(0).out;
+    folder.write("flat.toml", &flat);
+    for file in ["net.toml", "flat.toml"] {
+        let json = folder.run(&["run", file, "--no-files", "--format", "json"]).exits(1).json();
+        let near = |name: &str, exact: f64| {
+            let found = json["limits"][name]["margin"]["value"].as_f64().unwrap_or(f64::NAN);
+            assert!(
+                (found - exact).abs() < 1e-3 * (1.0 + 1e-3 * exact.abs()),
+                "{name} {found} {exact}"
+            );
+        };
+        near("hot", 200.0 - 1000.0 - 500.0 * (-40.0_f64 / 80.0).ln_1p());
+        near("heat", 1e5 - 160.0 * (1000.0 + 500.0 * (-2.0_f64).exp_m1()));
+        // 80 W / (1 - exp(-1.6)) = 100.2370 W
+        let size = folder.run(&["size", file]).exits(0);
+        size.prints("over the run of").prints("P = 100.237");
+        let steady = folder.run(&["steady", file]).exits(0);
+        steady.prints("not judged");
+    }
+}

@@ -66,10 +66,15 @@ fn places(diagnostic: Diagnostic, error: &BuildError, map: &SourceMap) -> Diagno
         }
         Kind::FaceCells { item, faces, .. }
         | Kind::FaceSides { item, faces, .. }
-        | Kind::FaceShapes { item, faces, .. } => {
+        | Kind::FaceShapes { item, faces, .. }
+        | Kind::FacesApart { item, faces, .. }
+        | Kind::FacesMoved { item, faces, .. }
+        | Kind::FacesMoving { item, faces, .. } => {
             let cells = matches!(error.kind, Kind::FaceCells { .. });
             let [a, b] = faces.map(|face| grid_size(map, face, cells));
-            let here = diagnostic.at(map.get(*item, Field::To), "");
+            let apart = matches!(error.kind, Kind::FacesApart { .. });
+            let offset = map.get(*item, Field::Offset).filter(|_| apart);
+            let here = diagnostic.at(offset.or_else(|| map.get(*item, Field::To)), "");
             here.also(a, "from this grid").also(b, "to this grid")
         }
         kind => match error.place() {

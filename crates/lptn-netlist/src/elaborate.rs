@@ -19,7 +19,7 @@ use crate::gearbox::Gears;
 use crate::head::MISSING_FORMAT;
 use crate::initial::StateFile;
 use crate::names::{Names, ValueKind};
-use crate::raw::RawNetlist;
+use crate::raw::{RawEntry, RawNetlist};
 use crate::run::RunPlan;
 use crate::scales::Scales;
 use crate::section::{self, Studies};
@@ -52,7 +52,7 @@ const MOST_DESCRIBED: usize = 1000;
 /// The network, or every error that prevents it. Warnings come with either.
 pub(crate) fn elaborate(
     raw: &RawNetlist,
-    (structure, gears): (&Arc<Structure>, &Gears),
+    (structure, gears, pipes): (&Arc<Structure>, &Gears, &[RawEntry]),
     csv: &CsvFiles,
     state: Option<&StateFile>,
 ) -> (Option<Elaborated>, Found) {
@@ -90,10 +90,12 @@ pub(crate) fn elaborate(
     work.nodes(default.initial.as_ref());
     work.import_nodes(import.as_ref(), default.initial.as_ref());
     work.grids(default.initial.as_ref());
+    work.streams_along();
     work.boundaries();
     work.import_boundaries(import.as_ref());
     let states = work.states();
     work.named_values();
+    work.pipes(pipes, default.initial.as_ref());
     work.connections();
     work.thermostats(controls);
     work.capacitors();

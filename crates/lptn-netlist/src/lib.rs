@@ -45,6 +45,7 @@ mod fit;
 mod foreign;
 mod format;
 mod foster;
+mod functional;
 mod gearbox;
 mod grid_names;
 mod grid_part;
@@ -63,7 +64,9 @@ mod names;
 mod near_file;
 mod netlist;
 mod outputs;
+mod overhang;
 mod parameters;
+mod pipe;
 mod place;
 mod plan;
 mod plausible;
@@ -113,7 +116,7 @@ pub use lptn_data::{
     RecordLine, RecordLines, RecordName, RecordQuery, RecordRow, Rejected, Saturation, Severity,
     Span, read_bytes, read_record, read_sheet, read_text,
 };
-pub use lptn_network::{RunSettings, WindowSettings};
+pub use lptn_network::{Functional, RunSettings, WindowSettings};
 pub use near_file::similar_file;
 pub use netlist::{Netlist, parse, parse_bytes, parse_file, parse_raw, parse_with, read};
 pub use plan::{
@@ -131,7 +134,6 @@ pub use size::{
 pub use source_map::SourceMap;
 pub use state::{SavedState, StateControl, StateEnd};
 pub use sweep::{
-    AxisNumbers, Functional, MOST_CASES, Measure, SweepAxis, SweepMethod, SweepOver, SweepPlan,
-    SweepStudy,
+    AxisNumbers, MOST_CASES, Measure, SweepAxis, SweepMethod, SweepOver, SweepPlan, SweepStudy,
 };
 pub use write_back::WrittenNumber;

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
 use lptn_data::Span;
+use lptn_network::FaceStreamId;
 use lptn_units::Expression;
 
 use crate::format::NetlistFormat;
@@ -71,6 +72,8 @@ pub(crate) struct Names {
     searches: usize,
     /// Grids by name.
     pub(crate) grids: BTreeMap<String, KnownGrid>,
+    /// Streams along faces by name.
+    pub(crate) streams: BTreeMap<String, FaceStreamId>,
     /// Grids that cannot be read.
     hidden_grids: HashSet<String>,
     /// Number of names that these searches compared.

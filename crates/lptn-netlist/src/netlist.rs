@@ -23,9 +23,11 @@ use crate::head;
 use crate::import;
 use crate::include::{self, Loader, Merged};
 use crate::initial::{self, InitialState, StateFile};
+use crate::overhang;
+use crate::pipe;
 use crate::plausible;
 use crate::posterior::Believed;
-use crate::raw::RawNetlist;
+use crate::raw::{RawEntry, RawNetlist};
 use crate::run::{RUN, RunPlan};
 use crate::section::{self, Studies};
 use crate::source_map::SourceMap;
@@ -92,6 +94,7 @@ impl Netlist {
         all.extend(streams::wrong_outlets(network, map, start));
         all.extend(plausible::materials(network, map));
         all.extend(plausible::neighbours(network, map));
+        all.extend(overhang::warnings(network, map));
         all.extend(gearbox::doubts(network, map, &self.gearboxes));
         all.extend(assumed::mean_conductivities(network, map));
         all.extend(unlikely::values(network, map));
@@ -229,20 +232,30 @@ fn whole(name: &str, text: &str, loader: Option<&mut Loader<'_>>) -> Result<Netl
         return included(files, raw, (Path::new(name), file), loader);
     }
     // errors of templates may follow from the broken line
-    let (Expanded { raw, structure, .. }, gears, _) = written_out(&mut files, raw);
-    let (_, found) = elaborate(&raw, (&structure, &gears), &CsvFiles::default(), None);
+    let (Expanded { raw, structure, .. }, WrittenOut { gears, pipes, .. }) =
+        written_out(&mut files, raw);
+    let written = (&structure, &gears, &pipes[..]);
+    let (_, found) = elaborate(&raw, written, &CsvFiles::default(), None);
     add_certain(&mut diagnostics, found.problems, (&files, file));
     Err(Rejected { syntax, ..Rejected::arranged(files, diagnostics, found.dropped) })
 }
 
-/// Every template, gearbox, controller and chain as elements.
-fn written_out(files: &mut Files, raw: RawNetlist) -> (Expanded, Gears, Vec<Chain>) {
+/// Parts of a text that were written out as elements.
+struct WrittenOut {
+    gears: Gears,
+    chains: Vec<Chain>,
+    pipes: Vec<RawEntry>,
+}
+
+/// Every template, gearbox, controller, chain and pipe as elements.
+fn written_out(files: &mut Files, raw: RawNetlist) -> (Expanded, WrittenOut) {
     let mut expanded = template::expand(files, raw, section::format());
     let Expanded { raw, structure, problems } = &mut expanded;
     let mut gears = gearbox::expand(raw, structure, problems);
     gears.types.extend(controller::expand(raw, structure, problems));
     let chains = foster::expand(raw, structure, problems);
-    (expanded, gears, chains)
+    let pipes = pipe::expand(raw, structure);
+    (expanded, WrittenOut { gears, chains, pipes })
 }
 
 /// The rest of the way for a text that is TOML.
@@ -257,7 +270,8 @@ fn included(
     if incomplete {
         return Err(Rejected { syntax, ..Rejected::arranged(files, diagnostics, 0) });
     }
-    let (Expanded { raw, structure, problems }, gears, chains) = written_out(&mut files, raw);
+    let (Expanded { raw, structure, problems }, WrittenOut { gears, chains, pipes }) =
+        written_out(&mut files, raw);
     diagnostics.extend(problems);
     let initial = raw.section(RUN.name).and_then(|run| run.get("initial"));
     let state =
@@ -265,7 +279,7 @@ fn included(
     let long = import::files(&raw).chain(Studies::files(&raw));
     let posterior = uncertainty::load(&mut files, &raw, loader.as_deref_mut());
     let csv = CsvFiles::read(&mut files, (&raw, section::format()), long, loader);
-    let (done, mut found) = elaborate(&raw, (&structure, &gears), &csv, state.as_ref());
+    let (done, mut found) = elaborate(&raw, (&structure, &gears, &pipes), &csv, state.as_ref());
     if include::any_error(&diagnostics) {
         found.problems.retain(|problem| problem.severity == Severity::Error);
     }

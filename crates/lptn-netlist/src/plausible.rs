@@ -150,11 +150,19 @@ fn implausible(
     })
 }
 
+/// A constant conductance in W/K; `None` between cells that do not touch.
+fn conductance_of(network: &Network, id: ConductorId) -> Option<f64> {
+    match network.flow(id) {
+        ConductorFlow::Conductance(conductance) => Some(conductance).filter(|value| *value > 0.0),
+        _ => None,
+    }
+}
+
 /// True if any two conductances are far apart; in most large networks none are.
 fn are_apart(network: &Network) -> bool {
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     for id in network.conductor_ids() {
-        if let ConductorFlow::Conductance(conductance) = network.flow(id) {
+        if let Some(conductance) = conductance_of(network, id) {
             (least, most) = (least.min(conductance), most.max(conductance));
         }
     }
@@ -168,7 +176,7 @@ pub(crate) fn neighbours(network: &Network, map: &SourceMap) -> Vec<Diagnostic> 
     }
     let mut extremes: Vec<Option<[(f64, ConductorId); 2]>> = vec![None; network.nodes().len()];
     for (id, conductor) in network.conductor_ids().zip(network.conductors()) {
-        let ConductorFlow::Conductance(conductance) = network.flow(id) else { continue };
+        let Some(conductance) = conductance_of(network, id) else { continue };
         for end in [conductor.from, conductor.to] {
             let End::Node(node) = end else { continue };
             let this = (conductance, id);

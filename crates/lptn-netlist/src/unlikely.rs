@@ -3,7 +3,8 @@
 
 use lptn_data::Diagnostic;
 use lptn_network::{
-    ConductorFlow, ConductorId, End, Field, Item, Naming, Network, NodeId, Value, ZERO_CELSIUS,
+    ConductorFlow, ConductorId, ConductorKind, End, Field, Item, Naming, Network, NodeId, Value,
+    ZERO_CELSIUS,
 };
 use lptn_units::{format_number, format_six as short};
 
@@ -83,18 +84,22 @@ fn laws(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for (id, conductor) in network.conductor_ids().zip(network.conductors()) {
         for (field, value) in conductor.law.parts() {
-            let Some(usual) = MOST_USUAL.iter().find(|usual| usual.key == field.key()) else {
+            // solder and grease conduct better than any film
+            let film = conductor.kind == ConductorKind::Convection;
+            let is = |usual: &&Most| usual.key == field.key() && (film || usual.key != "h");
+            let Some(usual) = MOST_USUAL.iter().find(is) else {
                 continue;
             };
             let Value::Constant(value) = value else { continue };
             let item = Item::Conductor(id);
             let unusual = (*value > usual.most).then(|| map.get(item, field));
             let Some(place) = unusual.flatten() else { continue };
+            let whole = network.whole(item).unwrap_or(item);
             let message = format!(
                 "`{}` of {} `{}` is {} {}",
                 usual.key,
                 map.kind(item),
-                network.name_of(item),
+                network.name_of(whole),
                 short(*value),
                 usual.unit
             );

@@ -33,8 +33,9 @@ impl Elaboration<'_> {
             }
             Text::Expression(expression) => expression,
         };
-        if expression.called().any(|called| called == ("mean", 1)) {
-            return self.no_mean(place);
+        let functional = expression.called().find(|call| self.functional_named(*call).is_some());
+        if let Some((name, _)) = functional {
+            return self.no_functional(place, name);
         }
         self.learn(&expression);
         self.learn_lubricants(&expression, &place.raw.span);
@@ -84,25 +85,7 @@ pub(crate) fn whole(expression: &Expression) -> String {
     if text.contains("[*]") { expression.meant().trim().to_owned() } else { text.to_owned() }
 }
 
-/// The argument of a mean over time, if an expression as a whole is one: `mean(x)`, as in
-/// `[sweep]`. The mean of several values is a value of each moment.
-pub(crate) fn mean_over_time(expression: &Expression) -> Option<Expression> {
-    let (name, mut arguments) = expression.split_call()?;
-    (name == "mean" && arguments.len() == 1).then(|| arguments.pop()).flatten()
-}
-
 impl Elaboration<'_> {
-    /// Refuses the mean over time in a place for a value of one moment.
-    fn no_mean(&mut self, place: Place<'_>) -> Option<Given> {
-        let message =
-            format!("{} has a mean over time, but a value of one moment is needed", place.words());
-        let help = "put it around the whole `of` of `[limit]`, a whole side of `require` or a \
-                    report of `[sweep]`, or give `[run]` a window; the mean of several values at \
-                    every moment is `mean(a.T, b.T)`";
-        self.refuse("netlist::mean_over_time", message, &place.raw.span, help);
-        None
-    }
-
     /// Distinguishes the names of imported elements from unknown ones.
     fn learn(&mut self, expression: &Expression) {
         for (name, _) in expression.names() {

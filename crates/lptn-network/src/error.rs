@@ -4,7 +4,8 @@ use lptn_laws::Formula;
 use lptn_units::{EvalError, Type, format_short};
 
 use crate::error_words::{
-    Say, area, by, crossed, evaluation, in_unit, inside, keys, not_positive, unused_name, usable,
+    Say, by, crossed, evaluation, face_area, in_unit, inside, joins_but, joins_cells, joins_sides,
+    keys, most_offset, most_pairs, not_positive, stream_help, stream_rows, unused_name, usable,
     without_brackets,
 };
 use crate::id::{
@@ -377,10 +378,19 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     NoProperty { item: Item, field: Field } = "network::no_property",
         at Some((*item, Field::Material)),
         says format!("the material of `{}` has no `{}`", say.name, field.key()), help None;
+    /// A pipe that more than its two streams reach.
+    PipeEnds { node: NodeId } = "network::pipe_ends", at Some((Item::Node(*node), Field::Name)),
+        says format!("something else than its own stream reaches the pipe `{}`", say.name),
+        help text("a pipe exchanges no heat: let paths, sources and other streams end at a node \
+            before or after it");
     /// A stream that ends at a face of a grid, which it cannot mix with.
     StreamIntoFace { item: Item } = "network::stream_into_face", at Some((*item, Field::To)),
         says format!("the stream `{}` ends at a face, which is solid", say.name),
-        help text("let the stream pass a node, and join that to the face by a [convection]");
+        help stream_help();
+    /// A path to a stream along a face from something that does not have its rows of cells.
+    StreamRows { item: Item, stream: String, rows: usize } = "network::stream_rows",
+        at Some((*item, Field::To)), says stream_rows(say, stream, *rows),
+        help Some(format!("join a face, or name one of its nodes: `{stream}[1]` to `[{rows}]`"));
     /// A face that a round grid does not have.
     NoFace { item: Item, face: GridFace, name: String } = "network::no_face",
         at Some((*item, Field::To)),
@@ -389,36 +399,35 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     /// Two faces that are joined but of different shapes.
     FaceShapes { item: Item, faces: [GridFace; 2], names: [String; 2] } = "network::face_shapes",
         at Some((*item, Field::To)),
-        says format!(
-            "`{}` joins `{}` to `{}`, and their shapes do not fit", say.name, names[0], names[1]
-        ),
+        says joins_but(say, names, "and their shapes do not fit"),
         help text("put a massless node between them, with a path to each face");
     /// Two faces that are joined but not divided in the same way: cells of each along its two axes.
     FaceCells { item: Item, faces: [GridFace; 2], names: [String; 2], cells: [[usize; 2]; 2] } =
-        "network::face_cells",
-        at Some((*item, Field::To)),
-        says format!(
-            "`{}` joins `{}` of {} cells to `{}` of {} cells",
-            say.name, names[0], by(&cells[0]), names[1], by(&cells[1])
-        ),
+        "network::face_cells", at Some((*item, Field::To)),
+        says joins_cells(say, names, cells),
         help text("divide both in the same way along the face");
     /// Two faces that are joined but not of the same size: lengths of each along its two axes in m.
     FaceSides { item: Item, faces: [GridFace; 2], names: [String; 2], sides: [[f64; 2]; 2] } =
-        "network::face_sides",
+        "network::face_sides", at Some((*item, Field::To)), says joins_sides(say, names, sides),
+        help text("such a path needs two faces of the same lengths: check `size` of both");
+    /// Two faces that are joined but do not overlap: the largest offset along each axis in m.
+    FacesApart { item: Item, faces: [GridFace; 2], names: [String; 2], most: [f64; 2] } =
+        "network::faces_apart", at Some((*item, Field::Offset)),
+        says joins_but(say, names, "but they do not overlap"), help Some(most_offset(*most));
+    /// Parameters that change the cells at which two faces touch.
+    FacesMoved { item: Item, faces: [GridFace; 2], names: [String; 2] } = "network::faces_moved",
         at Some((*item, Field::To)),
-        says format!(
-            "`{}` joins `{}`, {}, to `{}`, {}",
-            say.name, names[0], area(sides[0]), names[1], area(sides[1])
-        ),
-        help text("two faces that touch have the same lengths: check `size` of both");
+        says joins_but(say, names, "and other cells touch for these parameters"),
+        help text("cells are paired for the values in the file: write the new ones there");
+    /// Two faces that parameters move, and a path that cannot follow.
+    FacesMoving { item: Item, faces: [GridFace; 2], names: [String; 2] } = "network::faces_moving",
+        at Some((*item, Field::To)),
+        says joins_but(say, names, "which parameters move"), help Some(most_pairs());
     /// A path whose area is not that of the face it ends at, in m^2.
     FaceArea { item: Item, given: f64, face: GridFace, name: String, area: f64 } =
         "network::face_area",
         at Field::of_law("area").map(|field| (*item, field)),
-        says format!(
-            "the area of `{}`, {} m^2, is not that of the face `{name}`, {} m^2",
-            say.name, format_short(*given), format_short(*area)
-        ),
+        says face_area(say, *given, (name, *area)),
         help text("leave `area` out: it is that of the face; convection on a part of it is given \
             by `G` or `R`");
 }

@@ -198,6 +198,69 @@ pub(crate) fn area(sides: [f64; 2]) -> String {
     format!("{} m = {} m^2", by(&sides.map(rounded)), rounded(sides[0] * sides[1]))
 }
 
+/// "`joint` joins `die.z0` to `plate.z1`, but .."
+pub(crate) fn joins_but(say: &Say<'_>, [from, to]: &[String; 2], but: &str) -> String {
+    format!("`{}` joins `{from}` to `{to}`, {but}", say.name)
+}
+
+/// The cells of two faces that are joined.
+pub(crate) fn joins_cells(
+    say: &Say<'_>,
+    [from, to]: &[String; 2],
+    [a, b]: &[[usize; 2]; 2],
+) -> String {
+    let (a, b) = (by(a), by(b));
+    format!("`{}` joins `{from}` of {a} cells to `{to}` of {b} cells", say.name)
+}
+
+/// The lengths in m of two faces that are joined.
+pub(crate) fn joins_sides(
+    say: &Say<'_>,
+    [from, to]: &[String; 2],
+    [a, b]: &[[f64; 2]; 2],
+) -> String {
+    let (a, b) = (area(*a), area(*b));
+    format!("`{}` joins `{from}`, {a}, to `{to}`, {b}", say.name)
+}
+
+/// The largest distance between the middles of two faces that overlap, in m.
+pub(crate) fn most_offset(most: [f64; 2]) -> String {
+    let [a, b] = most.map(|length| format_short(length * 1e3));
+    format!(
+        "`offset` is the distance between the middles of both: the faces overlap within {a} mm and \
+         {b} mm"
+    )
+}
+
+/// Help for faces that parameters cannot move.
+pub(crate) fn most_pairs() -> String {
+    "give `size` and `offset` as numbers, or fewer cells: a path that follows parameters has at \
+     most 100000 pairs of cells, and `G` instead of `R`"
+        .to_owned()
+}
+
+/// Help for a stream that ends at a face.
+pub(crate) fn stream_help() -> Option<String> {
+    let help = "let the stream pass a node, and join that to the face by a [convection]; one that \
+        warms from row to row has `along` and `direction`";
+    Some(help.to_owned())
+}
+
+/// A path to a stream from something without its rows.
+pub(crate) fn stream_rows(say: &Say<'_>, stream: &str, rows: usize) -> String {
+    format!(
+        "`{}` joins the stream `{stream}` to something else than a face with {rows} rows of cells \
+         along it",
+        say.name
+    )
+}
+
+/// An area in m^2 that is not that of its face.
+pub(crate) fn face_area(say: &Say<'_>, given: f64, (of, area): (&str, f64)) -> String {
+    let [given, area] = [given, area].map(format_short);
+    format!("the area of `{}`, {given} m^2, is not that of {of}, {area} m^2", say.name)
+}
+
 /// The keys of a law's fields.
 pub(crate) fn keys(formula: Formula) -> String {
     let keys = formula.declaration().fields.iter().map(|field| format!("`{}`", field.key));

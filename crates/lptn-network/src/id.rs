@@ -56,6 +56,8 @@ ids! {
     GridId;
     /// A path that ends at a face of a grid.
     FacePathId;
+    /// A stream along a face of a grid.
+    FaceStreamId;
     /// A state of one's own.
     StateId;
     /// A named value.
@@ -240,6 +242,10 @@ pub enum Field {
     Most,
     /// Usual size of a state.
     UsualSize,
+    /// Content of a pipe.
+    PipeContent,
+    /// Place of a face on another one.
+    Offset,
 }
 
 /// A field of a law; those of one key are one field, whatever the law.
@@ -350,6 +356,8 @@ impl Field {
             Self::Least => "min",
             Self::Most => "max",
             Self::UsualSize => "size",
+            Self::PipeContent => "content",
+            Self::Offset => "offset",
         }
     }
 }

@@ -65,9 +65,9 @@ pub use error::BuildErrorKind;
 pub use error_words::{Naming, Say};
 pub use evaluation::Evaluation;
 pub use id::{
-    BoundaryId, CapacitorId, ConductorId, ControlId, End, FacePathId, Field, FluidId, GridId, Item,
-    LawField, LimitId, MaterialId, NodeId, ParameterId, ReportId, SignalId, SourceId, StateId,
-    SwitchId, TableId, ValueId,
+    BoundaryId, CapacitorId, ConductorId, ControlId, End, FacePathId, FaceStreamId, Field, FluidId,
+    GridId, Item, LawField, LimitId, MaterialId, NodeId, ParameterId, ReportId, SignalId, SourceId,
+    StateId, SwitchId, TableId, ValueId,
 };
 pub use input_error::{InputError, InputProblem};
 pub use ladder::{Cauer, Foster, LadderError};
@@ -84,11 +84,15 @@ pub use parameters::{ParameterError, Parameters};
 pub use parts::control::{Acts, Control, Thermostat};
 pub use parts::dependence::Vertices;
 pub use parts::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
+pub use parts::face_stream::FaceStream;
+pub use parts::functional::{Functional, History, OverTime};
 pub use parts::grid::{Face, FacePath, Grid, GridFace, MOST_CELLS, Substance, Terminal};
 pub use parts::grid_value::GridValue;
 pub use parts::heat::HeatOf;
 pub use parts::layout::Followed;
 pub use parts::named_value::NamedValue;
+pub use parts::overlap::Placement;
+pub use parts::pipe::{Pipe, PipePart};
 pub use parts::result::{Bound, Limit, LimitSeverity, Report};
 pub use parts::shape::{Form, Shape};
 pub use parts::signal::{AfterEnd, Course, Join, Signal};

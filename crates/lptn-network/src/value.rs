@@ -95,6 +95,12 @@ impl Input {
         self.ty
     }
 
+    /// A value of a type that was checked before, such as the quantity of a number over time with
+    /// the type of that number.
+    pub fn of_type(value: Value, ty: Type) -> Self {
+        Self { value, ty, deviation: None, lump: None }
+    }
+
     /// A plain number.
     pub fn number(value: f64) -> Self {
         Self { value: Value::Constant(value), ty: Type::SCALAR, deviation: None, lump: None }

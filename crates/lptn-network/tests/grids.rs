@@ -398,9 +398,9 @@ fn wrong_grids_and_joints_are_refused_once_for_the_whole() {
             let other = b.grid("other", other.clone());
             b.connect(
                 "glue",
-                ConductorKind::Resistor,
+                ConductorKind::Radiation,
                 (side(grid), side(other)),
-                Conductance(1.0).into(),
+                Path::radiation(quantity("0.04 m^2")),
             );
         })
     };

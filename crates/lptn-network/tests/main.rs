@@ -15,6 +15,7 @@ mod common;
 mod controls;
 mod expressions;
 mod grids;
+mod joints;
 mod ladder;
 mod laws;
 mod limits;

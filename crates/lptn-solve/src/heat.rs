@@ -21,6 +21,7 @@ use lptn_network::Positions;
 use crate::balance::Books;
 use crate::events::Gates;
 use crate::newton_error::NewtonError;
+use crate::pipe::Shared;
 use crate::stop_reason::StopReason;
 use crate::tangent::Tangent;
 use crate::unfold::Unfold;
@@ -121,6 +122,16 @@ impl<'a> Heat<'a> {
     /// Capacity of each state at its start in J/K.
     pub(crate) fn capacities(&self) -> &[f64] {
         self.system.capacity()
+    }
+
+    /// Takes the temperatures of pipes from their content.
+    pub(crate) fn read_pipes(&mut self, pipes: &Shared) -> Result<(), NewtonError> {
+        self.unfold.read_pipes(pipes)
+    }
+
+    /// True if there are pipes whose content is read.
+    pub(crate) fn has_pipes(&self) -> bool {
+        self.unfold.has_pipes()
     }
 
     /// True if massless nodes may have several solutions; see [`Heat::branch`].
@@ -347,7 +358,9 @@ impl OdeSystem for Heat<'_> {
         }
         self.place(time, y)?;
         let slopes = self.system.jacobian_at(&mut self.work, self.unfold.last(), self.form, values);
-        slopes.map_err(|error| self.failed(NewtonError::Input(error), Retry::SmallerStep))
+        slopes.map_err(|error| self.failed(NewtonError::Input(error), Retry::SmallerStep))?;
+        self.unfold.clear_pipes(values);
+        Ok(())
     }
 
     fn jacobian_is_constant(&self) -> bool {

@@ -165,7 +165,11 @@ pub(crate) fn time_of((from, to): (f64, f64), point: usize) -> f64 {
 
 /// A curve between the points of the interval between two times, by the polynomial through them.
 pub(crate) fn interpolated((from, to): (f64, f64), values: &[f64; POINTS], time: f64) -> f64 {
-    let x = 2.0 * (time - from) / (to - from) - 1.0;
+    polynomial(values, 2.0 * (time - from) / (to - from) - 1.0)
+}
+
+/// The polynomial through the values at the points, at `x` from -1 to 1.
+pub(crate) fn polynomial(values: &[f64; POINTS], x: f64) -> f64 {
     let (mut above, mut below) = (0.0, 0.0);
     for ((node, weight), value) in NODES.iter().zip(BARYCENTRIC).zip(values) {
         let share = weight / (x - node);

@@ -48,6 +48,7 @@ mod newton;
 mod newton_error;
 mod parallel;
 mod periodic;
+mod pipe;
 mod powers;
 mod quadrature;
 mod quantity;

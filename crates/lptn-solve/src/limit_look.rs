@@ -23,8 +23,6 @@ pub(crate) struct LimitLook {
     /// Their bends, and the values that are constant during the evaluation.
     bends: Bends,
     pub(crate) slots: Vec<f64>,
-    /// For each limit the integral of its margin so far, if it applies to the mean.
-    means: Vec<Option<f64>>,
     pub(crate) seen: Vec<LimitSeen>,
     /// Sizes of the compared sides.
     pub(crate) sizes: Vec<f64>,
@@ -32,14 +30,8 @@ pub(crate) struct LimitLook {
 }
 
 impl LimitLook {
-    pub(crate) fn new(seen: Vec<LimitSeen>, of_mean: &[bool], bends: Bends) -> Self {
-        let means = of_mean.iter().map(|of_mean| of_mean.then_some(0.0)).collect();
-        Self { bends, means, seen, ..Self::default() }
-    }
-
-    /// The integral of a margin so far, if the limit applies to its mean.
-    pub(crate) fn integral(&self, limit: usize) -> Option<f64> {
-        self.means[limit]
+    pub(crate) fn new(seen: Vec<LimitSeen>, bends: Bends) -> Self {
+        Self { bends, seen, ..Self::default() }
     }
 
     /// Evaluates a step.
@@ -54,15 +46,11 @@ impl LimitLook {
         self.halvings.after(parts.iter().all(|part| part.told));
         for Resolved { interval, open, .. } in &parts {
             let hides = *open && hidden.wanting(interval) > 0.0;
-            let integrals = interval.integrals(self.seen.len());
             for (limit, seen) in self.seen.iter_mut().enumerate() {
                 if *open {
                     seen.leave_open(&interval.of(limit), (self.sizes[limit], hides));
                 }
-                match &mut self.means[limit] {
-                    Some(sum) => *sum += integrals[limit][0],
-                    None => of_limit(interval, (limit, self.sizes[limit]), seen, at)?,
-                }
+                of_limit(interval, (limit, self.sizes[limit]), seen, at)?;
             }
         }
         Ok(())
@@ -75,8 +63,7 @@ impl LimitLook {
         let integrals = interval.integrals(self.seen.len());
         let one = |(limit, [_, apart, absolute]): (usize, [f64; 3])| {
             let allowed = (AGREEMENT * absolute).max(ROUNDING * self.sizes[limit] * length);
-            let open = apart.abs() > allowed
-                && (self.means[limit].is_some() || counts(&self.seen[limit], &interval.of(limit)));
+            let open = apart.abs() > allowed && counts(&self.seen[limit], &interval.of(limit));
             if open { apart.abs() / allowed } else { 0.0 }
         };
         integrals.into_iter().enumerate().map(one).fold(0.0, f64::max)

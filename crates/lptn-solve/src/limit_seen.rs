@@ -12,8 +12,8 @@ pub struct LimitSeen {
     pub limit: LimitId,
     /// Its least margin in SI units, positive if it was kept all the time; NaN if it could not be
     /// [judged](lptn_network::Network::is_judged) at any moment; see
-    /// [`lptn_network::Network::limit_margin`]. That of the mean over time for
-    /// [`lptn_network::Limit::of_mean`]. Zero if a temperature passes it by less than ten times the
+    /// [`lptn_network::Network::limit_margin`]. That of numbers over time for
+    /// [`lptn_network::Limit::over_time`]. Zero if a temperature passes it by less than ten times the
     /// tolerance, which is the error of a run.
     pub margin: f64,
     /// Time of that margin in s.
@@ -26,8 +26,8 @@ pub struct LimitSeen {
 }
 
 impl LimitSeen {
-    /// The same with the mean of its margin, known at the end.
-    pub(crate) fn of_mean(self, (time, margin): Point) -> Self {
+    /// The same with a margin over time, known at the end.
+    pub(crate) fn over_time(self, (time, margin): Point) -> Self {
         let broken_at = (margin < 0.0).then_some(time);
         Self { margin, worst_at: time, broken_at, ..self }
     }
@@ -80,9 +80,9 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_mean_is_known_and_broken_at_the_end() {
+    fn a_number_over_time_is_known_and_broken_at_the_end() {
         for (margin, broken) in [(1.0, None), (0.0, None), (-1.0, Some(9.0))] {
-            let found = LimitSeen { open: 0.5, ..unseen() }.of_mean((9.0, margin));
+            let found = LimitSeen { open: 0.5, ..unseen() }.over_time((9.0, margin));
             assert_eq!((found.margin, found.worst_at, found.broken_at), (margin, 9.0, broken));
             assert!((found.open - 0.5).abs() < 1e-15);
         }

@@ -12,6 +12,7 @@ use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
 use lptn_integrate::{Pattern, dense};
 use lptn_network::{InputError, Item, NodeId};
 
+use crate::pipe;
 use crate::snapshot::Snapshot;
 use crate::times::just_after;
 
@@ -29,6 +30,10 @@ pub enum LinearisedError {
     Melts { name: String } = "linearised::melts",
         format!("`{name}` melts there: its temperature does not respond to heat"),
         help "choose an operating point at which it is solid or molten";
+    /// The fluid in a pipe is not among its states.
+    Pipe { name: String } = "linearised::pipe",
+        format!("the fluid in the pipe `{name}` entered earlier: no small linear network has that"),
+        help "join the two ends of the pipe by an [advection], which has no delay";
     /// The balances of the massless nodes cannot be solved for them.
     Singular = "linearised::singular",
         "the massless nodes do not respond to a small disturbance there",
@@ -76,6 +81,9 @@ impl<'a> Linearised<'a> {
     /// # Errors
     /// [`LinearisedError`], also for a network that is not linear if no state is named.
     pub fn of(system: &'a ThermalSystem, at: Option<&Snapshot>) -> Result<Self, LinearisedError> {
+        if let Some(name) = pipe::first(system) {
+            return Err(LinearisedError::Pipe { name });
+        }
         if is_proportional(system) {
             return Self::of_proportional(system);
         }

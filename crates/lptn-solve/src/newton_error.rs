@@ -27,6 +27,11 @@ pub(crate) enum NewtonError {
         /// The unknown that cannot go on.
         unknown: usize,
     },
+    /// A step asks for fluid that had not entered its pipe when the step began.
+    NotEntered {
+        /// The unknown of the pipe.
+        unknown: usize,
+    },
     /// No solution was found.
     Stalled {
         /// The unknown that still moved most.

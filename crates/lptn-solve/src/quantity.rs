@@ -1,8 +1,8 @@
 //! Quantities that can be columns of the results.
 
 use lptn_network::{
-    BoundaryId, ConductorId, ControlId, GridValue, HeatOf, Item, Network, NodeId, ReportId,
-    SignalId, SourceId, StateId,
+    BoundaryId, ConductorId, ControlId, GridValue, HeatOf, Item, LimitId, Network, NodeId,
+    ReportId, SignalId, SourceId, StateId,
 };
 use lptn_units::{Type, Unit};
 
@@ -18,6 +18,8 @@ pub(crate) enum Quantity {
     Signal(SignalId),
     Control(ControlId),
     Report(ReportId),
+    /// A side of a limit, 0 or 1; never a column.
+    Side(LimitId, usize),
 }
 
 impl Quantity {
@@ -75,6 +77,7 @@ impl Quantity {
             Self::Signal(id) => (8, id.index(), 0),
             Self::Control(id) => (9, id.index(), 0),
             Self::Report(id) => (10, id.index(), 0),
+            Self::Side(id, side) => (11, id.index(), u8::from(side > 0)),
         };
         (inner, kind, index, end)
     }
@@ -104,6 +107,7 @@ impl Quantity {
             Self::Signal(id) => network.signals()[id.index()].name.clone(),
             Self::Control(id) => network.controls()[id.index()].name.clone(),
             Self::Report(id) => network.reports()[id.index()].name.clone(),
+            Self::Side(id, _) => network.limits()[id.index()].name.clone(),
         }
     }
 
@@ -116,6 +120,7 @@ impl Quantity {
             Self::State(id) => Item::State(id),
             Self::Signal(id) => Item::Signal(id),
             Self::Report(id) => Item::Report(id),
+            Self::Side(id, _) => Item::Limit(id),
             Self::Control(id) => Item::Control(id),
             Self::Grid(value) => Item::Grid(value.grid()),
         }
@@ -131,12 +136,16 @@ impl Quantity {
             Self::Signal(id) => network.signals()[id.index()].ty,
             Self::Control(_) => Type::SCALAR,
             Self::Report(id) => network.reports()[id.index()].ty,
+            Self::Side(id, side) => network.limit_side_type((id, side)),
         }
     }
 
     /// True if it is not a recorded temperature, and is read as the run reaches a row.
     pub(crate) fn needs_all(self) -> bool {
-        matches!(self, Self::Heat(_) | Self::Report(_) | Self::Grid(_) | Self::State(_))
+        !matches!(
+            self,
+            Self::Node(_) | Self::BoundaryTemperature(_) | Self::Signal(_) | Self::Control(_)
+        )
     }
 }
 

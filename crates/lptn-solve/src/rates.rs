@@ -4,6 +4,7 @@ use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{InputError, Positions};
 
 use crate::events::{ControlState, EventKind};
+use crate::pipe;
 use crate::state::State;
 use crate::times::just_after;
 use crate::unfold::{Unfold, carried};
@@ -42,6 +43,9 @@ impl<'a> StateRates<'a> {
     /// # Errors
     /// [`Unsolved`] if the balances of massless nodes cannot be set up.
     pub fn new(system: &'a ThermalSystem) -> Result<Self, Unsolved> {
+        if let Some(node) = pipe::first(system) {
+            return Err(Unsolved::Pipe { node });
+        }
         let unfold = Unfold::new(system).map_err(|error| Unsolved::new(system, error))?;
         Ok(Self { system, work: system.workspace(), unfold, controls: Vec::new() })
     }

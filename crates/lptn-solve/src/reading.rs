@@ -127,6 +127,9 @@ impl<'a> Reading<'a> {
             Quantity::Signal(id) => Ok(self.scope.signal(id)),
             Quantity::Control(id) => Ok(self.scope.control(id)),
             Quantity::Report(id) => self.system.network().report_value(id, &mut self.scope),
+            Quantity::Side(id, side) => {
+                self.system.network().limit_side((id, side), &mut self.scope)
+            }
         }
     }
 }

@@ -7,6 +7,7 @@
 use lptn_network::{Curve, InputError, Item, Network, same_time};
 
 use crate::cells::{Stretch, stretches};
+use crate::limit::of_moments;
 use crate::quantity::Quantity;
 use crate::times::{Segment, segments, snap};
 use crate::window::Window;
@@ -41,7 +42,7 @@ impl Readings {
         let inner: Vec<f64> = driving[1..].iter().map(|segment| segment.from).collect();
         let inner = merged(inner, all.breakpoints(&network.results())?, same_time(start, stop));
         let own = Around { known: &inner, ..all };
-        let limits: Vec<Item> = network.limit_ids().map(Item::Limit).collect();
+        let limits: Vec<Item> = of_moments(network).map(Item::Limit).collect();
         let limits = own.looks(&limits)?;
         let mut of_windows: Vec<Item> = windows.iter().flat_map(items_of).collect();
         of_windows.sort_unstable();
@@ -100,6 +101,7 @@ fn items_of(window: &Window) -> impl Iterator<Item = Item> + '_ {
     window.of.quantities().iter().filter_map(|quantity| match *quantity {
         Quantity::Report(id) => Some(Item::Report(id)),
         Quantity::Signal(id) => Some(Item::Signal(id)),
+        Quantity::Side(id, _) => Some(Item::Limit(id)),
         _ => None,
     })
 }

@@ -17,8 +17,10 @@ use crate::extremes::Extremes;
 use crate::heat::Heat;
 use crate::last::LastState;
 use crate::ledger::Ledger;
-use crate::limit::{LimitWatch, with_limits};
+use crate::limit::{self, LimitWatch, with_limits};
 use crate::looks::Looks;
+use crate::newton_error::NewtonError;
+use crate::pipe::Shared;
 use crate::ranges::RangeWatch;
 use crate::reading::Reading;
 use crate::readings::Readings;
@@ -63,6 +65,7 @@ pub(crate) struct Recorder<'a> {
     placed: u64,
     limits: LimitWatch<'a>,
     ranges: RangeWatch<'a>,
+    /// The windows of the run, then that of the limits over time if there is one.
     windows: Vec<Tracked>,
     reading: Reading<'a>,
     /// The variables of the integrator at one time.
@@ -95,7 +98,8 @@ impl<'a> Recorder<'a> {
         let (start, stop) = (rows[0], rows[rows.len() - 1]);
         let unfold =
             Unfold::new(system).map_err(|e| TransientError::Start(Unsolved::new(system, e)))?;
-        let windows = settings.windows.iter().cloned().map(|window| Tracked::new(window, network));
+        let windows = settings.windows.iter().cloned().chain(limit::window(network, (start, stop)));
+        let windows = windows.map(|window| Tracked::new(window, network));
         Ok(Self {
             system,
             work: system.workspace(),
@@ -127,6 +131,11 @@ impl<'a> Recorder<'a> {
             branch_ahead: Vec::new(),
             idle: false,
         })
+    }
+
+    /// Takes the temperatures of pipes from their content.
+    pub(crate) fn read_pipes(&mut self, pipes: &Shared) -> Result<(), NewtonError> {
+        self.unfold.read_pipes(pipes)
     }
 
     pub(crate) fn system(&self) -> &'a ThermalSystem {
@@ -307,9 +316,12 @@ impl<'a> Recorder<'a> {
             RunStatus::Interrupted(time) | RunStatus::Failed(time) => time,
         };
         let last = LastState::new(self.system, &self.work, (time, &self.state));
+        let span = (self.rows[0], self.rows[self.rows.len() - 1]);
+        let of_limits = limit::window(network, span).and_then(|_| self.windows.pop());
+        let of_limits = of_limits.and_then(|w| w.into_seen(network, self.tolerance));
         let windows = self.windows.into_iter().filter_map(|w| w.into_seen(network, self.tolerance));
         self.rows.truncate(self.next);
-        let limits = self.limits.into_seen(self.tolerance);
+        let limits = self.limits.into_seen((self.tolerance, of_limits));
         Solution {
             controls: Vec::new(),
             method: None,

@@ -1,6 +1,6 @@
 //! The columns of a table, and the nodes that a run records for them.
 
-use lptn_network::{Item, Network, NodeId, ReportId};
+use lptn_network::{Item, LimitId, Network, NodeId, ReportId};
 
 use crate::quantity::Quantity;
 
@@ -52,6 +52,12 @@ impl Selection {
     /// The columns of these reports.
     pub fn of_reports(reports: &[ReportId]) -> Self {
         Self { quantities: reports.iter().map(|id| Quantity::Report(*id)).collect() }
+    }
+
+    /// Both sides of these limits.
+    pub(crate) fn of_limits(limits: impl Iterator<Item = LimitId>) -> Self {
+        let sides = limits.flat_map(|id| [Quantity::Side(id, 0), Quantity::Side(id, 1)]);
+        Self { quantities: sides.collect() }
     }
 
     /// The columns that match any of `patterns`, in the order of the network.

@@ -122,6 +122,7 @@ impl Snapshot {
             Quantity::Signal(id) => Ok(scope.signal(id)),
             Quantity::Control(id) => Ok(scope.control(id)),
             Quantity::Report(id) => network.report_value(id, scope),
+            Quantity::Side(id, side) => network.limit_side((id, side), scope),
         }
     }
 }

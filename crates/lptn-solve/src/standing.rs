@@ -40,6 +40,9 @@ pub(crate) fn free(
     let mut free = Vec::new();
     for unknown in all {
         let state = system.network().state_at(system.unknowns()[unknown]);
+        if is_counter(system, unknown) {
+            continue;
+        }
         match state.filter(|_| !reads[unknown]) {
             None => free.push(unknown),
             Some(state) => at_rest(state, flow[unknown])?,
@@ -64,12 +67,19 @@ pub(crate) fn still(
     let mut flow = vec![0.0; unknowns.len()];
     system.flow(work, unknowns, &mut flow)?;
     let held = (0..unknowns.len()).filter(|unknown| free.binary_search(unknown).is_err());
+    let held = held.filter(|unknown| !is_counter(system, *unknown));
     for unknown in held {
         if let Some(state) = system.network().state_at(system.unknowns()[unknown]) {
             at_rest(state, flow[unknown])?;
         }
     }
     Ok(())
+}
+
+/// True for the state that counts the fluid of a pipe: it goes on while the temperatures rest.
+pub(crate) fn is_counter(system: &ThermalSystem, unknown: usize) -> bool {
+    let (network, node) = (system.network(), system.unknowns()[unknown]);
+    network.pipes().iter().any(|pipe| network.counter_of(pipe) == node)
 }
 
 /// Checks the flow into the node of a state, in W.

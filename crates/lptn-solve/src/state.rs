@@ -3,6 +3,7 @@
 use lptn_assembly::ThermalSystem;
 use lptn_network::InputError;
 
+use crate::pipe::Content;
 use crate::unfold::carried;
 
 /// The state of a network at one time: all that its future depends on in addition to its inputs.
@@ -19,6 +20,8 @@ pub struct State {
     /// Temperatures in K of the massless nodes that may have several solutions; empty if they are
     /// not known, or do not.
     stood: Vec<f64>,
+    /// The content of each pipe; empty if it is that of the start of the network.
+    contents: Vec<Content>,
 }
 
 impl State {
@@ -50,16 +53,26 @@ impl State {
 
     /// A saved state: the values of [`State::carried`] and [`State::stood`].
     pub fn restored(carried: Vec<f64>, stood: Vec<f64>) -> Self {
-        Self { carried, stood }
+        Self { stood, ..Self::of_carried(carried) }
     }
 
     pub(crate) fn of_carried(carried: Vec<f64>) -> Self {
-        Self { carried, stood: Vec::new() }
+        Self { carried, stood: Vec::new(), contents: Vec::new() }
     }
 
     /// The same with massless nodes of several solutions at these temperatures in K.
     pub(crate) fn standing(self, stood: Vec<f64>) -> Self {
         Self { stood, ..self }
+    }
+
+    /// The same with this content of each pipe.
+    pub(crate) fn filled(self, contents: Vec<Content>) -> Self {
+        Self { contents, ..self }
+    }
+
+    /// The content of each pipe; may be empty.
+    pub(crate) fn contents(&self) -> &[Content] {
+        &self.contents
     }
 
     /// Temperatures in K of massless nodes of several solutions; may be empty.
@@ -81,7 +94,20 @@ impl State {
         let (states, massless) = (system.states().len(), system.algebraic().len());
         self.carried.len() == states
             && (self.stood.is_empty() || self.stood.len() == massless)
+            && self.knows_contents(system)
             && self.carried.iter().chain(&self.stood).all(|y| y.is_finite())
+    }
+
+    /// True if it has the content of each pipe, or no fluid has passed.
+    fn knows_contents(&self, system: &ThermalSystem) -> bool {
+        let (network, states) = (system.network(), system.states());
+        let fresh = |pipe: &lptn_network::Pipe| {
+            let node = network.counter_of(pipe);
+            let state = states.iter().position(|id| *id == node);
+            state.is_some_and(|i| self.carried[i].to_bits() == network.initial(node).to_bits())
+        };
+        let pipes = network.pipes();
+        self.contents.len() == pipes.len() || pipes.iter().all(fresh)
     }
 
     /// The largest difference to another state of the same network, in K.

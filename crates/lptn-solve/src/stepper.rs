@@ -40,6 +40,7 @@ pub(crate) fn stepper<'a>(
     let Inputs { curved, parts } = inputs;
     let serves = matches!(choice, IntegratorChoice::Auto | IntegratorChoice::OneStep)
         && !curved
+        && !heat.has_pipes()
         && OneStep::suits(&mut heat, (start, state), options.tolerance);
     match choice {
         IntegratorChoice::Auto | IntegratorChoice::OneStep if serves => {
@@ -50,16 +51,21 @@ pub(crate) fn stepper<'a>(
         IntegratorChoice::OneStep => {
             Err(TransientError::Settings(SettingsError::OneStep { curved }))
         }
-        // stages go back in time, which may lose the branch of a massless node
-        IntegratorChoice::Auto
-            if parts >= MANY_PARTS && !heat.is_guarded() && Esdirk::suits(&heat) =>
-        {
+        IntegratorChoice::Auto if parts >= MANY_PARTS && suits_esdirk(&heat) => {
             esdirk(heat, (start, state), options)
         }
-        IntegratorChoice::Esdirk if Esdirk::suits(&heat) => esdirk(heat, (start, state), options),
+        IntegratorChoice::Esdirk if !heat.has_pipes() && Esdirk::suits(&heat) => {
+            esdirk(heat, (start, state), options)
+        }
         IntegratorChoice::Esdirk => Err(TransientError::Settings(SettingsError::Esdirk)),
         _ => Ok((cvodes(heat, (start, state), options)?, Method::Cvode)),
     }
+}
+
+/// Stages go back in time, which may lose the branch of a massless node, and asks a pipe for fluid
+/// that has left.
+fn suits_esdirk(heat: &Heat<'_>) -> bool {
+    !heat.is_guarded() && !heat.has_pipes() && Esdirk::suits(heat)
 }
 
 fn esdirk<'a>(

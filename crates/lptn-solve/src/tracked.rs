@@ -41,12 +41,13 @@ pub(crate) type Columns<'a> =
 impl Tracked {
     pub(crate) fn new(window: Window, network: &Network) -> Self {
         let count = window.of.quantities().len();
-        let reports = window.of.quantities().iter().filter_map(|quantity| match quantity {
+        let results = window.of.quantities().iter().filter_map(|quantity| match quantity {
             Quantity::Report(id) => Some(Item::Report(*id)),
+            Quantity::Side(id, 0) => Some(Item::Limit(*id)),
             _ => None,
         });
         Self {
-            bends: network.bends(reports),
+            bends: network.bends(results),
             slots: Vec::new(),
             reached: window.from,
             sums: Quadrature::new(kinds(&window.of, network)),

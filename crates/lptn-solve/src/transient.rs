@@ -3,6 +3,7 @@
 mod failed;
 mod fold;
 mod guarded;
+mod piped;
 mod rest;
 
 use lptn_assembly::ThermalSystem;
@@ -16,7 +17,9 @@ use crate::events::{Switching, Trouble, find_crossings};
 use crate::growth::Growth;
 use crate::guard::{Guard, Verdict};
 use crate::heat::Heat;
+use crate::limit;
 use crate::method::Method;
+use crate::pipe::Shared;
 use crate::readings::Readings;
 use crate::recorder::Recorder;
 use crate::settings::{Proceed, Progress, Transient};
@@ -29,6 +32,7 @@ use crate::stop_reason::StopReason;
 use crate::tangent::Tangent;
 use crate::times::{Segment, check_resolution, segments, snap};
 use crate::unsolved::Unsolved;
+use crate::window::Window;
 
 use guarded::Effort;
 pub(crate) use rest::{FINE, MOVED, ROUGH, Way, rest};
@@ -106,8 +110,10 @@ impl Transient {
         breakpoints.dedup();
         let segments = segments(self.start, self.stop, &breakpoints);
         let curved = Curved::of(system, &segments, &rows);
-        let readings = Readings::new(network, &segments, &rows, &self.windows)
-            .map_err(TransientError::Input)?;
+        let of_limits = limit::window(network, (self.start, self.stop));
+        let windows: Vec<Window> = self.windows.iter().cloned().chain(of_limits).collect();
+        let readings =
+            Readings::new(network, &segments, &rows, &windows).map_err(TransientError::Input)?;
         let recorder = Recorder::new(system, (rows, readings), self)?;
         if system.states().is_empty() {
             return stateless::solve(recorder, &segments, &self.books(network)).map(Some);
@@ -174,6 +180,10 @@ pub(crate) struct Run<'a> {
     grows: f64,
     /// `None` unless something switches.
     switching: Option<Switching<'a>>,
+    /// `None` without pipes.
+    pipes: Option<Shared>,
+    /// True if temperatures may bend at the present time, for what enters a pipe.
+    bends: bool,
     /// Steps in a row, each after refused ones, that are too short to make progress.
     crawled: usize,
     /// Attempts in a row that failed before a fold.
@@ -198,6 +208,8 @@ impl<'a> Run<'a> {
         if !from.stood().is_empty() {
             heat.stand_at(from.stood());
         }
+        let reads = (from, settings.tolerance, effort.care);
+        let pipes = piped::attach(system, (&mut heat, &mut recorder), reads).map_err(unsolved)?;
         let mut carried = Vec::new();
         if !settings.sensitivities.is_empty() {
             let tangent = Tangent::new(system, &settings.sensitivities)?;
@@ -234,6 +246,8 @@ impl<'a> Run<'a> {
             tolerance,
             due: Vec::new(),
             switching,
+            pipes,
+            bends: true,
             curved,
             guard,
             growth,
@@ -304,6 +318,7 @@ impl<'a> Run<'a> {
     fn enter(&mut self, segment: Segment) -> Result<(), Break> {
         self.stand()?;
         self.begin_to_guard();
+        self.bends = true;
         self.recorder.enter(segment, self.switching.as_ref().map(|switching| &switching.positions));
         if self.method == Method::OneStep {
             self.integrator.system_mut().draw_line((segment.from, segment.to));
@@ -318,7 +333,8 @@ impl<'a> Run<'a> {
     fn step(&mut self, segment: Segment) -> Result<(), Break> {
         let armed =
             self.switching.as_ref().map_or(f64::INFINITY, |s| s.next_armed(self.integrator.time()));
-        self.hold_step(segment.to.min(armed));
+        let (stop, longest) = self.hold_for_pipes(segment.to.min(armed))?;
+        self.hold_step(stop, longest);
         let step = match self.integrator.step() {
             Ok(step) => step,
             Err(error) => return self.leap_or_fail(segment, error),
@@ -330,10 +346,11 @@ impl<'a> Run<'a> {
         }
         let (mut due, crossed) = self.crossings(&step)?;
         let to = self.reaches(step.from, crossed)?;
+        let (to, leaves) = self.pipes_reach(step.from, to)?;
         if to < crossed {
             due.clear();
         }
-        if !due.is_empty() {
+        if !due.is_empty() || leaves.is_some() {
             self.recorder.cut(to);
         }
         let row = self.recorder.written();
@@ -341,6 +358,7 @@ impl<'a> Run<'a> {
         if let Some(switching) = &mut self.switching {
             switching.reach(to, self.recorder.span(), self.recorder.written() > row);
         }
+        self.fill_pipes(step.from, to)?;
         if to < step.to {
             self.integrator.rewind(to).map_err(|e| self.failed(e))?;
             self.guard_begins();
@@ -351,6 +369,13 @@ impl<'a> Run<'a> {
             return Ok(());
         }
         let happens = !due.is_empty() || to >= armed;
+        if let (Some(edge), false) = (leaves, happens) {
+            self.integrator.restart(None).map_err(|e| self.failed(e))?;
+            self.enter(Segment { from: to, to: segment.to })?;
+            // a bend that leaves bends no other temperature
+            self.bends = edge.jumps;
+            return Ok(());
+        }
         if happens && (self.switch(&due, false)? || !due.is_empty()) {
             self.integrator.restart(None).map_err(|e| self.failed(e))?;
             return self.enter(Segment { from: to, to: segment.to });
@@ -397,6 +422,13 @@ impl<'a> Run<'a> {
                 stored[id.index()] = capacity * (now - before);
             }
         }
+        let pipes = self.pipes.as_ref().map(|pipes| pipes.borrow());
+        for (pipe, heat) in
+            system.network().pipes().iter().zip(pipes.iter().flat_map(|pipes| pipes.stored(system)))
+        {
+            stored[pipe.node.index()] = heat;
+        }
+        let contents = pipes.map_or_else(Vec::new, |pipes| pipes.contents());
         let statistics: Statistics = self.integrator.statistics();
         let integrals = self.integrator.quadratures().map_err(TransientError::Integrator)?;
         let integrals = integrals.to_vec();
@@ -407,6 +439,7 @@ impl<'a> Run<'a> {
         let events = self.switching.map_or_else(Vec::new, |switching| switching.events);
         let stood = self.recorder.branch().to_vec();
         let end_state = State::of_carried(self.integrator.state().to_vec()).standing(stood);
+        let end_state = end_state.filled(contents);
         let solution = self.recorder.into_solution(books, (statistics, events), end);
         let (method, made_up) = (Some(self.method), self.grows);
         Ok(Solution { end_state, controls, method, growth, made_up, unresolved, ..solution })

@@ -5,12 +5,15 @@
 //! C0` in K, so that heat is never lost to the approximation of a changing capacity. Algebraic
 //! unknowns are solved for.
 
+use std::rc::Rc;
+
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{Enthalpy, Field, InputError, InputProblem, Item};
 
 use crate::between::SHORT;
 use crate::newton::Newton;
 use crate::newton_error::NewtonError;
+use crate::pipe::Shared;
 
 /// Temperatures of all unknowns of a system, from the integrator's variables.
 pub(crate) struct Unfold<'a> {
@@ -25,6 +28,8 @@ pub(crate) struct Unfold<'a> {
     /// True if the algebraic unknowns may jump to another solution at the next evaluation, because
     /// their inputs have.
     leaps: bool,
+    /// The pipes of a run, whose temperatures come from their content.
+    pipes: Option<Shared>,
 }
 
 /// A state whose variable is its heat content.
@@ -72,7 +77,34 @@ impl<'a> Unfold<'a> {
             temperatures,
             slopes: vec![1.0; count],
             leaps: true,
+            pipes: None,
         })
+    }
+
+    /// Takes the temperatures of pipes from their content.
+    pub(crate) fn read_pipes(&mut self, pipes: &Shared) -> Result<(), NewtonError> {
+        let read: Vec<usize> = pipes.borrow().unknowns().collect();
+        let (states, all) = (self.system.states().len(), self.system.unknowns().len());
+        let solved: Vec<usize> = (states..all).filter(|unknown| !read.contains(unknown)).collect();
+        let guarded = self.is_guarded();
+        self.algebraic = None;
+        if !solved.is_empty() {
+            let mut newton = Newton::new(self.system, solved)?;
+            newton.guarded = guarded;
+            self.algebraic = Some(newton);
+        }
+        self.pipes = Some(Rc::clone(pipes));
+        Ok(())
+    }
+
+    /// Takes the balances of pipes out of a Jacobian.
+    pub(crate) fn clear_pipes(&self, values: &mut [f64]) {
+        self.pipes.iter().for_each(|pipes| pipes.borrow().clear_rows(values));
+    }
+
+    /// True if there are pipes whose content is read.
+    pub(crate) fn has_pipes(&self) -> bool {
+        self.pipes.is_some()
     }
 
     /// True if a variable is not the temperature somewhere.
@@ -106,6 +138,10 @@ impl<'a> Unfold<'a> {
             };
             self.temperatures[state] = content.temperature;
             self.slopes[state] = (capacity / content.capacity).max(LEAST_SLOPE);
+        }
+        if let Some(pipes) = &self.pipes {
+            let at = (carried, &mut self.temperatures[..]);
+            pipes.borrow().place(self.system, work, at)?;
         }
         if let Some(newton) = &mut self.algebraic {
             match std::mem::take(&mut self.leaps) && newton.guarded {

@@ -62,6 +62,14 @@ pub enum Unsolved {
             "give `{node}` a small capacity instead of `massless = true`, such as `C = \"1 \
              mJ/K\"`, and a `T0`"
         );
+    /// The temperature of the fluid that leaves a pipe depends on fluid that entered earlier, which
+    /// only a run knows.
+    Pipe { node: String } = "solve::pipe",
+        format!("the fluid that leaves the pipe `{node}` entered earlier, and only a run knows it"),
+        help format!(
+            "use `lptn run`, or join the two ends of `{node}` by an [advection] in place of the \
+             [pipe]"
+        );
     /// Comparisons have no truth that agrees with the temperatures at one state, because each changes
     /// a temperature that is compared; their names.
     Restless { names: Vec<String> } = "run::restless",
@@ -120,6 +128,7 @@ impl Unsolved {
                 Self::Unstable { node: name(unknown), swings }
             }
             NewtonError::Fold { unknown } => Self::Fold { node: name(unknown) },
+            NewtonError::NotEntered { unknown } => Self::Pipe { node: name(unknown) },
             NewtonError::Factorization(error) => Self::Factorization(error),
             NewtonError::Stalled { unknown, change } => {
                 Self::NotFound { node: name(unknown), change }
@@ -135,6 +144,7 @@ impl Unsolved {
             Self::Undetermined { node, .. }
             | Self::Unstable { node, .. }
             | Self::Fold { node }
+            | Self::Pipe { node }
             | Self::NotFound { node, .. } => node,
         }
     }

@@ -1,5 +1,6 @@
 //! Windows of time, and their results.
 
+use lptn_network::History;
 use lptn_units::{Type, Unit};
 
 use crate::quantity::Shown;
@@ -39,6 +40,14 @@ pub struct ColumnSeen {
     /// faster than steps resolve.
     pub open: f64,
     pub(crate) shown: Shown,
+}
+
+impl WindowSeen {
+    /// The statistics of a column of the window.
+    pub fn history(&self, column: &ColumnSeen) -> History {
+        let ColumnSeen { last, min, max, mean, positive, .. } = *column;
+        History { last, min: min.0, max: max.0, mean, positive, length: self.to - self.from }
+    }
 }
 
 impl ColumnSeen {

@@ -126,6 +126,88 @@ fn a_limit_of_a_mean_is_judged_at_the_end() {
     assert!(seen.broken_at.is_none());
 }
 
+/// Functionals of the rise 80 K (1 - exp(-t/TAU)) in closed form, all known at the end.
+#[test]
+fn limits_of_numbers_over_time_have_closed_forms() {
+    let mean = 80.0 - 80.0 * TAU / 1000.0 * -(-1000.0 / TAU).exp_m1();
+    for (of, bound, value, tolerance) in [
+        ("integral(body.T - 20 [degC])", "below = \"50000 K s\"", 5e4 - 1000.0 * mean, 1e-2),
+        ("integral(film.Q)", "above = \"40 kJ\"", 2000.0 * mean - 4e4, 2e-2),
+        ("time_over(body.T, 60 [degC])", "below = \"200 s\"", reaches(40.0) - 800.0, 1e-4),
+        ("time_under(body.T, 60 [degC])", "below = \"200 s\"", 200.0 - reaches(40.0), 1e-4),
+        ("last(body.T)", "below = \"80 degC\"", 60.0 - rise(1000.0), 1e-5),
+        ("min(body.T)", "below = \"25 degC\"", 5.0, 1e-9),
+        ("max(body.T)", "above = \"90 degC\"", rise(1000.0) - 70.0, 1e-5),
+        ("mean(abs(body.T - 60 [degC]))", "below = \"25 K\"", 25.0 - of_bend(), 1e-5),
+    ] {
+        let (seen, _) = seen(&format!("of = \"{of}\", {bound}"));
+        near(seen.margin, value, tolerance);
+        let broken = (value < 0.0).then_some(1000.0);
+        assert_eq!((seen.worst_at, seen.broken_at, seen.open), (1000.0, broken, 0.0), "{of}");
+    }
+}
+
+/// The mean of |rise - 40 K|: before the passage 40 K - rise, after it rise - 40 K.
+fn of_bend() -> f64 {
+    let passes = reaches(40.0);
+    let integral = |t: f64| 80.0 * (t + TAU * (-t / TAU).exp_m1());
+    let before = 40.0 * passes - integral(passes);
+    (before + integral(1000.0) - integral(passes) - 40.0 * (1000.0 - passes)) / 1000.0
+}
+
+/// The largest value is below a bound if all values are: the limit tells when it is first broken.
+#[test]
+fn a_limit_of_the_largest_value_is_one_of_every_moment() {
+    for (of, bound) in [("body.T", "below = \"70 degC\""), ("body.T", "above = \"25 degC\"")] {
+        let (plain, _) = seen(&format!("of = \"{of}\", {bound}"));
+        let name = if bound.starts_with("below") { "max" } else { "min" };
+        assert_eq!(plain, seen(&format!("of = \"{name}({of})\", {bound}")).0);
+    }
+}
+
+/// A life at a constant rate of ageing twice that at the reference is half the life there. The rate
+/// is exp(E/k (1/T_ref - 1/T)); its mean is by Simpson's rule on the closed form of the rise.
+#[test]
+fn a_limit_of_a_life_is_that_of_the_mean_rate() {
+    let rate = |t: f64| {
+        (1.602_176_634e-19 / 1.380_649e-23 * (1.0 / 333.15 - 1.0 / (293.15 + rise(t)))).exp()
+    };
+    let count = 20_000;
+    let at = |k: i32| rate(1000.0 * f64::from(k) / f64::from(count));
+    let weight = |k: i32| {
+        if k == 0 || k == count {
+            1.0
+        } else if k % 2 == 1 {
+            4.0
+        } else {
+            2.0
+        }
+    };
+    let mean = (0..=count).map(|k| weight(k) * at(k)).sum::<f64>() / (3.0 * f64::from(count));
+    let (seen, _) = seen("of = \"life(body.T, 1000 [h], 60 [degC], 1 [eV])\", above = \"500 h\"");
+    let exact = 3.6e6 / mean - 1.8e6;
+    near(seen.margin, exact, 1e-6 * exact.abs().max(1e6));
+}
+
+/// The numbers are the same for any rows, and in steady state those that do not end are not judged.
+#[test]
+fn numbers_over_time_do_not_depend_on_rows() {
+    let system = system(
+        "a = { of = \"integral(film.Q)\", below = \"1 J\" }\n\
+         b = { of = \"time_over(body.T, 60 [degC])\", below = \"1 s\" }\n\
+         c = { of = \"mean(body.T)\", below = \"90 degC\" }",
+        "",
+    );
+    let coarse = run(&system);
+    let fine =
+        Transient::until(Time(1000.0)).every(Time(0.5)).tolerance(1e-6).solve(&system).unwrap();
+    assert_eq!(coarse.limits(), fine.limits());
+    let state = SteadyState::solve(&system, 0.0).unwrap();
+    let margins = state.limit_margins(system.network(), 0.0).unwrap();
+    assert!(margins[0].is_nan() && margins[1].is_nan());
+    near(margins[2], -10.0, 1e-9);
+}
+
 /// A bell over temperature, and a kink, inside one step of the integrator.
 #[test]
 fn a_valley_of_a_margin_inside_a_step_is_found() {

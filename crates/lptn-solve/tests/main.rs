@@ -35,6 +35,7 @@ mod outputs;
 mod own_states;
 mod periodic;
 mod periodic_events;
+mod pipes;
 mod response;
 mod sensitive;
 mod snapshot;

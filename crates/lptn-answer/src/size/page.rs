@@ -131,8 +131,8 @@ fn over(netlist: &Netlist, study: &SizeStudy) -> Option<String> {
     };
     let what = if study.over == Over::Run { "run" } else { "periodic steady state" };
     let lasts = lasts.map_or(String::new(), |lasts| format!(" of {}", duration(lasts, 6)));
-    let means = study.requirements.iter().all(Requirement::is_of_mean);
-    let when = if means { "over" } else { "at every moment of" };
+    let numbers = study.requirements.iter().all(Requirement::is_over_time);
+    let when = if numbers { "over" } else { "at every moment of" };
     Some(format!("{when} the {what}{lasts}"))
 }
 

@@ -187,7 +187,7 @@ impl SweepAnswer {
             ));
         }
         if let Some(life) =
-            self.asked.study().reports.iter().find(|r| r.functional == Functional::Life)
+            self.asked.study().reports.iter().find(|r| r.functional() == Functional::Life)
         {
             notes.push(format!(
                 "`{}` assumes that the computed time history repeats without end",

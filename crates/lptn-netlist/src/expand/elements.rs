@@ -1,7 +1,9 @@
 //! Nodes, and all elements between and on them.
 
 use lptn_laws::Kind;
-use lptn_network::{Bound, Conductor, Item, Law, Limit, LimitSeverity, Lump, Size, Source, Value};
+use lptn_network::{
+    Bound, Conductor, End, Item, Law, Limit, LimitSeverity, Lump, Size, Source, Value,
+};
 use lptn_units::{Dimension, Type, format_number};
 
 use super::Writer;
@@ -10,7 +12,7 @@ use crate::toml_text::{TomlFields, like, string, value};
 impl Writer<'_> {
     pub(super) fn nodes(&mut self) {
         let mut section = TomlFields::default();
-        for id in self.network.thermal_nodes() {
+        for id in self.network.thermal_nodes().filter(|id| self.network.pipe_at(*id).is_none()) {
             let node = &self.network.nodes()[id.index()];
             let mut fields = TomlFields::default();
             self.capacity(&mut fields, node.capacity.as_ref(), node.lump.as_ref());
@@ -69,6 +71,7 @@ impl Writer<'_> {
         for kind in Kind::ALL {
             let mut section = TomlFields::default();
             let conductors = self.network.conductors().iter();
+            let conductors = conductors.filter(|conductor| !self.is_of_pipe(conductor));
             for conductor in conductors.filter(|conductor| conductor.kind == *kind) {
                 section.put(&conductor.name(), self.conductor(conductor));
             }
@@ -79,6 +82,15 @@ impl Writer<'_> {
             }
             self.section(kind.declaration().section, &section);
         }
+    }
+
+    /// True for the streams into and out of a pipe.
+    fn is_of_pipe(&self, conductor: &Conductor) -> bool {
+        let is_pipe = |end| match end {
+            End::Node(node) => self.network.pipe_at(node).is_some(),
+            End::Boundary(_) => false,
+        };
+        is_pipe(conductor.from) || is_pipe(conductor.to)
     }
 
     fn conductor(&self, conductor: &Conductor) -> String {
@@ -105,7 +117,7 @@ impl Writer<'_> {
         fields.inline()
     }
 
-    fn law(&self, fields: &mut TomlFields, kind: Kind, law: &Law) {
+    pub(super) fn law(&self, fields: &mut TomlFields, kind: Kind, law: &Law) {
         if let Some(fluid) = law.fluid() {
             fields.word("fluid", &self.name(Item::Fluid(fluid)));
         }
@@ -171,8 +183,9 @@ impl Writer<'_> {
 /// The limited quantity with every instance of its families.
 fn whole(limit: &Limit) -> String {
     match (&limit.of, limit.text.contains("[*]")) {
-        (Value::Expression(program), true) if limit.of_mean => format!("mean({})", program.text()),
-        (Value::Expression(program), true) => program.text().trim().to_owned(),
+        (Value::Expression(program), true) if limit.is_of_moments() => {
+            program.text().trim().to_owned()
+        }
         _ => limit.text.clone(),
     }
 }

@@ -11,6 +11,7 @@
 mod controls;
 mod elements;
 mod flat;
+mod pipes;
 mod proof;
 mod questions;
 mod states;
@@ -149,6 +150,7 @@ impl Writer<'_> {
         self.states();
         self.named_values();
         self.conductors();
+        self.pipes();
         self.limits();
     }
 

@@ -9,7 +9,8 @@ use crate::toml_text::{TomlFields, like, string};
 impl Writer<'_> {
     pub(super) fn states(&mut self) {
         let mut section = TomlFields::default();
-        for state in self.network.states() {
+        let states = self.network.state_ids().zip(self.network.states());
+        for (_, state) in states.filter(|(id, _)| !self.network.counts_fluid(*id)) {
             section.put(&state.name, self.state(state));
         }
         self.section("state", &section);

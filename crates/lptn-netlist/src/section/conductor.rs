@@ -5,7 +5,7 @@ use lptn_units::{Dimension, Type};
 
 use crate::fields::Fields;
 use crate::raw::{RawEntry, RawValue};
-use crate::section::path_section::{PATHS, PathSection};
+use crate::section::path_section::{ALONG, DIRECTION, OFFSET, PATHS, PathSection};
 use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {
@@ -22,8 +22,15 @@ impl<'a> Elaboration<'a> {
     fn conductor(&mut self, entry: &'a RawEntry, of: &'static PathSection) -> Option<()> {
         let section = &of.section;
         let mut fields = self.fields(section, entry)?;
+        if fields.known(ALONG) && fields.get(ALONG).is_some() {
+            return self.flow_along(entry, of, &fields);
+        }
+        if fields.known(ALONG) {
+            self.refuse_keys(&fields, &[DIRECTION], "has no effect without `along`");
+        }
         let (from, to) = (self.terminal(&fields, "from"), self.terminal(&fields, "to"));
-        fields.area = self.area_of(&fields, [&from, &to]);
+        let placement = self.placement(&fields, [&from, &to]);
+        fields.area = self.area_of(&fields, [&from, &to], &placement);
         // a stand-in if the law is wrong, so that the ends still count
         let path = self.path(&fields, of);
         let formula = path.as_ref().map(|path| path.formula());
@@ -32,7 +39,8 @@ impl<'a> Elaboration<'a> {
             path.unwrap_or_else(|| Path::resistance(stand_in(Type::of(Dimension::RESISTANCE))));
         let (from, to) = (from?, to?);
         let before = self.builder.sizes();
-        let item = self.builder.connect(&entry.key, of.kind, (from.0, to.0), path);
+        let placed = (path, placement);
+        let item = self.builder.connect_at(&entry.key, of.kind, (from.0, to.0), placed);
         match item {
             Item::FacePath(_) => {
                 self.map.face_path(section.name);
@@ -45,7 +53,7 @@ impl<'a> Elaboration<'a> {
         Some(())
     }
 
-    fn map_fields(
+    pub(super) fn map_fields(
         &mut self,
         (item, path): (Item, &PathSection),
         fields: &Fields<'a>,
@@ -53,6 +61,9 @@ impl<'a> Elaboration<'a> {
     ) {
         self.map.value(item, Field::From, from.1);
         self.map.value(item, Field::To, to.1);
+        if let Some(raw) = fields.get(OFFSET).filter(|_| fields.known(OFFSET)) {
+            self.map.value(item, Field::Offset, raw);
+        }
         let own = path.values().filter_map(Field::of_law);
         for field in own.chain([Field::Material, Field::Fluid]) {
             if let Some(raw) = fields.get(field.key()).filter(|_| fields.known(field.key())) {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lptn_data::{Diagnostic, Span, nearest};
-use lptn_network::{End, GridFace, Input, NodeId, Terminal, is_name};
+use lptn_network::{End, GridFace, Input, NodeId, Placement, Terminal, is_name};
 use lptn_units::{Dimension, Type, suggest};
 
 use crate::fields::{Fields, Owner};
@@ -21,22 +21,31 @@ impl<'a> Elaboration<'a> {
         key: &str,
     ) -> Option<(Terminal, &'a RawValue)> {
         let (name, raw) = self.required_word(fields, key)?;
+        let full = self.names.structure.inside(&raw.span, name);
+        if let Some(id) = full.as_deref().and_then(|name| self.names.streams.get(name)) {
+            return Some((Terminal::Stream(*id), raw));
+        }
         match self.face_at(&raw.span, name) {
             Some(at) => Some((at.into(), raw)),
             _ => self.named_end(fields, key, (name, raw)).map(|(end, raw)| (end.into(), raw)),
         }
     }
 
-    /// The area of the face at which a path ends; of the first, if both ends are faces.
+    /// The area of the face at which a path ends, or that two faces have in common.
     pub(crate) fn area_of(
         &self,
         fields: &Fields<'_>,
         ends: [&Option<(Terminal, &RawValue)>; 2],
+        placement: &Placement<Input>,
     ) -> Option<Input> {
-        let area = ends.into_iter().flatten().find_map(|(terminal, _)| match terminal {
-            Terminal::Face(at) => self.builder.face_area(*at),
-            Terminal::End(_) => None,
-        });
+        let area = match faces(ends)[..] {
+            [a, b] => {
+                let area = self.builder.common_area([a, b], placement);
+                area.or_else(|| self.builder.face_area(a))
+            }
+            [face] => self.builder.face_area(face),
+            _ => None,
+        };
         // a name that was meant to be that of a face has been reported
         let meant = |key: &str| match fields.get(key).map(|raw| &raw.kind) {
             Some(RawKind::String { text, .. }) => {
@@ -57,7 +66,7 @@ impl<'a> Elaboration<'a> {
 
     /// The face that a name means at `place`, also the end of a rod, whose one surface has the same
     /// name.
-    fn face_at(&self, place: &Span, name: &str) -> Option<GridFace> {
+    pub(crate) fn face_at(&self, place: &Span, name: &str) -> Option<GridFace> {
         let full = self.names.structure.inside(place, name)?;
         match self.names.grid_part(&full)? {
             (_, GridPart::Face(at)) => Some(at),
@@ -269,6 +278,15 @@ impl<'a> Elaboration<'a> {
         candidates.sort_unstable();
         suggest(name, candidates.into_iter()).map(str::to_owned)
     }
+}
+
+/// The faces among the ends of a path.
+pub(crate) fn faces(ends: [&Option<(Terminal, &RawValue)>; 2]) -> Vec<GridFace> {
+    let face = |(terminal, _): &(Terminal, &RawValue)| match terminal {
+        Terminal::Face(at) => Some(*at),
+        Terminal::End(_) | Terminal::Stream(_) => None,
+    };
+    ends.into_iter().flatten().filter_map(face).collect()
 }
 
 fn example(name: &str, wanted: &str) -> String {

@@ -1,14 +1,15 @@
 //! `[limit]`: bounds of the results.
 
 use lptn_data::Diagnostic;
-use lptn_network::{Bound, Field, Input, Item, LimitSeverity};
+use lptn_network::{Bound, Field, Input, Item, LimitSeverity, OverTime};
 use lptn_units::Type;
 
 use crate::fields::Fields;
 use crate::format::{Role, SectionDeclaration, akin, text, words};
+use crate::functional::Taken;
 use crate::place::{Given, Place, Text, Wanted};
 use crate::raw::{RawEntry, RawKind};
-use crate::value::mean_over_time;
+use crate::value::whole;
 use crate::work::{Elaboration, stand_in};
 
 pub(crate) const LIMIT: SectionDeclaration = SectionDeclaration {
@@ -38,6 +39,9 @@ pub(crate) const LIMIT: SectionDeclaration = SectionDeclaration {
     ..SectionDeclaration::NEW
 };
 
+/// The limited result, its type if known, its text, and its functional over time if it has one.
+type Limited = (Input, Option<Type>, String, Option<OverTime>);
+
 impl<'a> Elaboration<'a> {
     pub(crate) fn limits(&mut self) {
         for entry in self.elements(LIMIT.name) {
@@ -47,29 +51,33 @@ impl<'a> Elaboration<'a> {
 
     fn limit(&mut self, entry: &'a RawEntry) -> Option<()> {
         let fields = self.fields(&LIMIT, entry)?;
-        let (of, ty, text, of_mean) = self.limited(&fields);
+        let (of, ty, text, over_time) = self.limited(&fields);
         let (bound, value) = self.bound(&fields, ty);
         let severity = self.severity(&fields);
         let id = self.builder.limit(&entry.key, (of, &text), (bound, value), severity);
-        if of_mean {
-            self.builder.limit_of_mean(id);
+        if let Some(over_time) = over_time.filter(|o| !bound.is_of_moments(o.functional)) {
+            self.builder.limit_over_time(id, over_time);
         }
         self.note(Item::Limit(id), &entry.key_span, &fields, &[Field::Of, bound.field()]);
         Some(())
     }
 
-    /// The limited result, its type if known, its text, and true if its mean over time is limited.
-    fn limited(&mut self, fields: &Fields<'a>) -> (Input, Option<Type>, String, bool) {
-        let nothing = || (stand_in(Type::ABSOLUTE_TEMPERATURE), None, String::new(), false);
+    /// The limited result, its type if known, its text, and its functional over time.
+    fn limited(&mut self, fields: &Fields<'a>) -> Limited {
+        let nothing = || (stand_in(Type::ABSOLUTE_TEMPERATURE), None, String::new(), None);
         let Some(raw) = self.require(fields, "of") else { return nothing() };
         let place = Place { owner: &fields.owner, key: "of", raw };
         let text = self.names.text(place, None);
         let Some(text) = self.kept(text) else { return nothing() };
-        let mean = match &text {
-            Text::Expression(expression) => mean_over_time(expression),
-            Text::Quantity(_) => None,
-        };
-        let (of_mean, text) = (mean.is_some(), mean.map_or(text, Text::Expression));
+        if let Text::Expression(expression) = &text
+            && let Some(called) = self.called(expression)
+        {
+            let written = whole(expression);
+            let Some(Taken { of: (of, _), ty, over_time }) = self.over_time(place, called) else {
+                return nothing();
+            };
+            return (Input::of_type(of, ty), Some(ty), written, Some(over_time));
+        }
         match self.resolve(place, text, Wanted::of_results()) {
             Some(Given::Quantity(_)) => {
                 self.report(
@@ -87,10 +95,9 @@ impl<'a> Elaboration<'a> {
                 let text = match &raw.kind {
                     // a family is shown as it is written
                     RawKind::String { text, .. } if text.contains("[*]") => text.trim().to_owned(),
-                    _ if of_mean => format!("mean({text})"),
                     _ => text,
                 };
-                (program.into(), Some(ty), text, of_mean)
+                (program.into(), Some(ty), text, None)
             }
             None => nothing(),
         }

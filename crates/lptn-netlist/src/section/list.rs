@@ -30,6 +30,7 @@ use crate::gearbox::GEARBOX;
 use crate::import::IMPORT;
 use crate::infer::InferStudy;
 use crate::parameters::PARAM;
+use crate::pipe::PIPE;
 use crate::plan::PlanStudy;
 use crate::raw::{RawNetlist, RawValue};
 use crate::run::RUN;
@@ -43,9 +44,9 @@ use crate::uncertainty::UNCERTAINTY;
 use crate::work::Elaboration;
 
 /// The sections before and after those of paths and sources, in the order of messages.
-static BEFORE: [&SectionDeclaration; 13] = [
+static BEFORE: [&SectionDeclaration; 14] = [
     &PARAM, &TABLE, &SIGNAL, &DEFAULT, &MATERIAL, &FLUID, &LUBRICANT, &FAN, &NODE, &GRID,
-    &CAPACITOR, &BOUNDARY, &FOSTER,
+    &CAPACITOR, &BOUNDARY, &FOSTER, &PIPE,
 ];
 static BEHIND: [&SectionDeclaration; 11] = [
     &GEARBOX,

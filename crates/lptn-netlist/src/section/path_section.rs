@@ -83,6 +83,12 @@ fn path_section(kind: Kind) -> PathSection {
 /// before a flow, and the key that chooses a law after the keys of all laws.
 fn keys(kind: Kind, values: &[PathValue]) -> Vec<KeyDeclaration> {
     let mut keys = if kind.is_source() { vec![INTO] } else { ENDS.into() };
+    if joins_faces(kind) {
+        keys.extend(PLACE);
+    }
+    if kind == Kind::Advection {
+        keys.extend(STREAM);
+    }
     let first = kind.laws_named(true).next().map_or("", |law| law.declaration().name);
     let mut selector = kind.declaration().selector.map(|name| {
         let mut laws: Vec<&str> = Vec::new();
@@ -166,6 +172,54 @@ const ENDS: [KeyDeclaration; 2] = [
     )
     .needed(),
 ];
+
+/// The keys of the place of a face on another one.
+pub(crate) const OFFSET: &str = "offset";
+pub(crate) const AXES: &str = "axes";
+
+const PLACE: [KeyDeclaration; 2] = [
+    shaped(
+        OFFSET,
+        "list of two lengths",
+        Takes::List(&Takes::Quantity("m"), 2, 2),
+        "of two faces of blocks: from the middle of `to` to that of `from`, along the axes of `to`",
+        "[\"5 mm\", \"-2 mm\"]",
+    )
+    .or("one middle"),
+    shaped(
+        AXES,
+        "list of two axes",
+        Takes::List(&Takes::Text, 2, 2),
+        "of two faces of blocks: the axis of `to` along each axis of `from`, `\"-x\"` if it runs \
+         against it",
+        "[\"y\", \"-x\"]",
+    )
+    .or("in the order x, y, z"),
+];
+
+/// The keys of a stream along a face.
+pub(crate) const ALONG: &str = "along";
+pub(crate) const DIRECTION: &str = "direction";
+
+const STREAM: [KeyDeclaration; 2] = [
+    text(
+        ALONG,
+        "face of a grid",
+        "a face along which the stream flows, row by row",
+        "\"plate.z0\"",
+    ),
+    text(
+        DIRECTION,
+        "axis",
+        "the axis along the face in which it flows, `\"-x\"` against it",
+        "\"x\"",
+    ),
+];
+
+/// True for paths that two faces may share in part.
+pub(crate) fn joins_faces(kind: Kind) -> bool {
+    matches!(kind, Kind::Contact | Kind::Resistor | Kind::Conduction | Kind::Convection)
+}
 
 const INTO: KeyDeclaration = shaped(
     "into",

@@ -5,7 +5,9 @@ mod check;
 mod read;
 
 use lptn_data::{Diagnostic, Span};
-use lptn_network::{Bound, Evaluation, Limit, LimitSeverity, Network, ParameterId, Value};
+use lptn_network::{
+    Bound, Evaluation, Limit, LimitSeverity, Network, OverTime, ParameterId, Value,
+};
 use lptn_units::{EvalError, Type};
 
 use crate::format::{
@@ -177,8 +179,9 @@ pub struct Requirement {
     pub ty: Type,
     low: Value,
     high: Value,
-    /// True if means over time are compared instead of values at every moment.
-    of_mean: bool,
+    /// The functionals over time of both sides, if they are compared instead of values at every
+    /// moment.
+    over_time: [Option<OverTime>; 2],
 }
 
 impl Requirement {
@@ -191,9 +194,9 @@ impl Requirement {
         Ok(self.high.at(scope)? - self.low.at(scope)?)
     }
 
-    /// True if it compares means over time instead of values at every moment.
-    pub fn is_of_mean(&self) -> bool {
-        self.of_mean
+    /// True if it compares numbers over time instead of values at every moment.
+    pub fn is_over_time(&self) -> bool {
+        self.over_time.iter().any(Option::is_some)
     }
 
     /// Both sides.
@@ -210,7 +213,7 @@ impl Requirement {
             bound: Bound::Below,
             value: self.high.clone(),
             compares: true,
-            of_mean: self.of_mean,
+            over_time: self.over_time.clone(),
             severity: LimitSeverity::Error,
             text: self.text.clone(),
         }

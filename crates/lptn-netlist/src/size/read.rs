@@ -1,11 +1,13 @@
 //! Reads `[size.NAME]`.
 
 use lptn_data::Diagnostic;
-use lptn_units::{Comparison, Expression};
+use lptn_network::{Bound, OverTime, Value};
+use lptn_units::{Comparison, Expression, Type};
 
 use crate::fields::{Fields, Owner};
+use crate::functional::{Called, Taken};
 use crate::listed::{Listed, Names};
-use crate::place::{Given, Place, Text, Wanted};
+use crate::place::{Place, Text, Wanted};
 use crate::raw::{RawEntry, RawValue};
 use crate::reading::all;
 use crate::run::RUN;
@@ -13,8 +15,22 @@ use crate::setting::Setting;
 use crate::size::{
     Catalogue, Goal, Objective, Over, Requirement, SIZE, SizeRange, SizeStudy, VARY,
 };
-use crate::value::{mean_over_time, whole};
+use crate::value::whole;
 use crate::work::Elaboration;
+
+/// A side of a requirement.
+struct Side {
+    value: Value,
+    ty: Type,
+    over_time: Option<OverTime>,
+}
+
+impl Side {
+    /// True if its bound is that of every moment.
+    fn is_of_moments(&self, bound: Bound) -> bool {
+        self.over_time.as_ref().is_none_or(|o| bound.is_of_moments(o.functional))
+    }
+}
 
 impl<'a> Elaboration<'a> {
     pub(super) fn size_study(&mut self, entry: &'a RawEntry) -> Option<SizeStudy> {
@@ -23,7 +39,7 @@ impl<'a> Elaboration<'a> {
         let steady = over.as_ref().is_none_or(|(over, _)| *over == Over::Steady);
         let sought = self.goal(&fields, steady);
         let varied = self.varied_or_chosen(&fields);
-        let requirements = self.requirements(&fields);
+        let requirements = self.requirements(&fields, steady);
         let cases = self.cases_of(&fields);
         let probability = self.optional_setting(&fields, "probability");
         let ((goal, objective), (varied, catalogues)) = (sought?, varied?);
@@ -169,17 +185,21 @@ impl<'a> Elaboration<'a> {
     }
 
     /// The requirements of a study: comparisons of results.
-    pub(crate) fn requirements(&mut self, fields: &Fields<'a>) -> Option<Vec<Requirement>> {
+    fn requirements(&mut self, fields: &Fields<'a>, steady: bool) -> Option<Vec<Requirement>> {
         let raw = self.require(fields, "require")?;
         let list = self.list(fields, ("require", "a list of requirements"))?;
         if list.is_empty() {
             self.report(fields.wrong_shape("require", raw, "a list of requirements"));
             return None;
         }
-        all(list.iter().map(|raw| self.requirement(&fields.owner, raw)))
+        all(list.iter().map(|raw| self.requirement(&fields.owner, (raw, steady))))
     }
 
-    fn requirement(&mut self, owner: &Owner, raw: &'a RawValue) -> Option<Requirement> {
+    fn requirement(
+        &mut self,
+        owner: &Owner,
+        (raw, steady): (&'a RawValue, bool),
+    ) -> Option<Requirement> {
         let place = Place { owner, key: "require", raw };
         let text = self.names.text(place, None);
         let Text::Expression(expression) = self.kept(text)? else {
@@ -188,55 +208,90 @@ impl<'a> Elaboration<'a> {
         let Some((left, comparison, right)) = expression.split_comparison() else {
             return self.no_comparison(place);
         };
-        let (means, of_mean) = self.means(place, [left, right])?;
-        let [left, right] = means;
-        let (left, right) = self.sides(place, left, right)?;
-        let ty = left.ty();
-        let (left, right) = (left.value(), right.value());
+        let [left, right] = self.sides((place, steady), [left, right])?;
         let (low, high) = match comparison {
             Comparison::Less | Comparison::LessEqual => (left, right),
             Comparison::Greater | Comparison::GreaterEqual => (right, left),
             Comparison::Equal | Comparison::NotEqual => return self.no_comparison(place),
         };
-        Some(Requirement { text: whole(&expression), ty, low, high, of_mean })
+        let every_moment = low.is_of_moments(Bound::Below) && high.is_of_moments(Bound::Above);
+        let (text, ty) = (whole(&expression), low.ty);
+        let (low, high, over_time) = (low.value, high.value, [low.over_time, high.over_time]);
+        let over_time = if every_moment { [None, None] } else { over_time };
+        Some(Requirement { text, ty, low, high, over_time })
     }
 
-    /// The arguments of both sides if they are means over time, and true if they are. A mean may be
-    /// compared with another one, or with a constant.
-    fn means(
-        &mut self,
-        place: Place<'_>,
-        sides: [Expression; 2],
-    ) -> Option<([Expression; 2], bool)> {
-        let means = [mean_over_time(&sides[0]), mean_over_time(&sides[1])];
-        let of_mean = means.iter().any(Option::is_some);
-        let constant =
-            |side: &Expression| side.names().iter().all(|(name, _)| self.names.is_parameter(name));
-        let fits = sides.iter().zip(&means).all(|(side, mean)| mean.is_some() || constant(side));
-        if of_mean && !fits {
-            let message =
-                format!("{} compares a mean over time with a value that changes", place.words());
-            let help = "compare it with a value or with another mean: `mean(a.T) <= mean(b.T)`";
-            self.refuse("netlist::mean_over_time", message, &place.raw.span, help);
-            return None;
-        }
-        let [left, right] = means;
-        let [first, second] = sides;
-        Some(([left.unwrap_or(first), right.unwrap_or(second)], of_mean))
-    }
-
-    /// Both sides, of one type.
+    /// Both sides, of one type. A functional over time may be compared with another one, or with a
+    /// constant.
     fn sides(
         &mut self,
+        (place, steady): (Place<'_>, bool),
+        sides: [Expression; 2],
+    ) -> Option<[Side; 2]> {
+        let called = [self.called(&sides[0]), self.called(&sides[1])];
+        let over_time = called.iter().any(Option::is_some);
+        let constant =
+            |side: &Expression| side.names().iter().all(|(name, _)| self.names.is_parameter(name));
+        if steady && let Some(called) = called.iter().flatten().next() {
+            return self.no_time(place, called);
+        }
+        if over_time && !sides.iter().zip(&called).all(|(s, c)| c.is_some() || constant(s)) {
+            let message =
+                format!("{} compares a number over time with a value that changes", place.words());
+            let help = "compare it with a value or with another functional: `mean(a.T) <= \
+                        mean(b.T)`";
+            self.refuse("netlist::functional", message, &place.raw.span, help);
+            return None;
+        }
+        let turned = called[0].is_none() && called[1].is_some();
+        let mut both: Vec<_> = sides.into_iter().zip(called).collect();
+        if turned {
+            both.reverse();
+        }
+        let (mut found, mut ty) = (Vec::new(), None);
+        for side in both {
+            let side = self.side(place, side, ty);
+            ty = ty.or(side.as_ref().map(|side| side.ty));
+            found.push(side);
+        }
+        if turned {
+            found.reverse();
+        }
+        <[Side; 2]>::try_from(all(found.into_iter())?).ok()
+    }
+
+    /// One side, of this type if it is known.
+    fn side(
+        &mut self,
         place: Place<'_>,
-        left: Expression,
-        right: Expression,
-    ) -> Option<(Given, Given)> {
-        let left = self.resolve(place, Text::Expression(left), Wanted::of_results());
-        let ty = left.as_ref().map(Given::ty);
-        let wanted = Wanted { ty, ..Wanted::of_results() };
-        let right = self.resolve(place, Text::Expression(right), wanted);
-        Some((left?, right?))
+        (expression, called): (Expression, Option<Called>),
+        ty: Option<Type>,
+    ) -> Option<Side> {
+        let Some(called) = called else {
+            let wanted = Wanted { ty, ..Wanted::of_results() };
+            let given = self.resolve(place, Text::Expression(expression), wanted)?;
+            return Some(Side { ty: given.ty(), value: given.value(), over_time: None });
+        };
+        let Taken { of: (value, _), ty: own, over_time } = self.over_time(place, called)?;
+        if ty.is_some_and(|ty| ty != own) {
+            let message = format!("{} compares numbers of different quantities", place.words());
+            let help = "compare numbers of one unit: `time_over(a.T, 90 [degC]) <= 30 [s]`";
+            self.refuse("netlist::functional", message, &place.raw.span, help);
+            return None;
+        }
+        Some(Side { value, ty: own, over_time: Some(over_time) })
+    }
+
+    fn no_time<T>(&mut self, place: Place<'_>, called: &Called) -> Option<T> {
+        let inner = called.arguments.first().map_or("", |first| first.text().trim());
+        let message =
+            format!("{} needs results over time, but a steady state is one moment", place.words());
+        let help = format!(
+            "require `{inner}`, which is its value there, or size `over = \"run\"` or `over = \
+             \"periodic\"`"
+        );
+        self.refuse("netlist::functional", message, &place.raw.span, &help);
+        None
     }
 
     fn no_comparison(&mut self, place: Place<'_>) -> Option<Requirement> {

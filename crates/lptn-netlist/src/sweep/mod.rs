@@ -19,7 +19,7 @@ use axis::AxisValues;
 use declaration::SWEEP;
 
 pub use crate::size::Over as SweepOver;
-pub use measure::{Functional, Measure};
+pub use measure::Measure;
 pub use plan::{AxisNumbers, MOST_CASES, SweepPlan};
 
 /// The choice of the candidates of a sweep.

@@ -9,13 +9,14 @@ use crate::error::BuildErrorKind;
 use crate::id::{End, FacePathId, GridId, Item, NodeId};
 use crate::law::Law;
 use crate::parts::grid::{FacePath, GridFace, Terminal};
+use crate::parts::overlap::{Joint, Placement};
 use crate::parts::shape::Form;
 use crate::value::{Input, Value};
 
 impl NetworkBuilder {
     /// Adds a path between nodes, boundaries and faces of grids. One that ends at a face becomes a
     /// conductor for each of its cells; they share the conductance or the area of the whole. Two
-    /// faces are joined cell by cell, in the order of the axes along each.
+    /// equal faces are joined cell by cell, in the order of the axes along each.
     ///
     /// Expressions in its values see the temperatures of each conductor by itself, and are those of
     /// the whole path.
@@ -26,30 +27,48 @@ impl NetworkBuilder {
         (from, to): (impl Into<Terminal>, impl Into<Terminal>),
         path: Path,
     ) -> Item {
-        let (from, to) = (from.into(), to.into());
+        self.connect_at(name, kind, (from.into(), to.into()), (path, Placement::default()))
+    }
+
+    /// The same for two faces of blocks of which the first has a place on the second. Every pair of
+    /// cells that overlap exchanges heat over their common area.
+    pub fn connect_at(
+        &mut self,
+        name: &str,
+        kind: Kind,
+        (from, to): (Terminal, Terminal),
+        (path, placement): (Path, Placement<Input>),
+    ) -> Item {
         if let (Terminal::End(from), Terminal::End(to)) = (from, to) {
             return Item::Conductor(self.conductor(name, kind, (from, to), path));
         }
         let item = Item::FacePath(FacePathId::from_len(self.parts.face_paths.len()));
+        let placement = self.placed((name, item), placement);
         let first = self.next_conductor();
         let (name, area) = (name.to_owned(), path.area());
-        let face_path = FacePath { name, kind, from, to, area, first, end: first };
-        match self.face_path_problem(&face_path, item, path.is_stream()) {
+        let (joint, end) = (Joint::CellByCell, first);
+        let mut face_path = FacePath { name, kind, from, to, area, placement, joint, first, end };
+        let problem = self.face_path_problem(&face_path, item, path.is_stream());
+        let problem = problem.or_else(|| self.stream_problem(&face_path, item));
+        let problem = problem.or_else(|| self.overlap(&mut face_path, item, &path).err());
+        match problem {
             Some(problem) => {
                 self.error(&face_path.name, problem);
                 self.register(&face_path.name, item);
                 self.parts.face_paths.push(face_path);
                 item
             }
-            None => self.join(face_path, (item, path)),
+            None if matches!(face_path.joint, Joint::CellByCell) => {
+                self.join(face_path, (item, path))
+            }
+            None => self.join_pairs(face_path, (item, &path)),
         }
     }
 
     fn join(&mut self, mut face_path: FacePath, (item, path): (Item, Path)) -> Item {
         let named = face_path.faces().next();
         let indices = named.map_or_else(Vec::new, |at| self.face_indices(at));
-        let (from, to) =
-            (self.ends(face_path.from, indices.len()), self.ends(face_path.to, indices.len()));
+        let (from, to) = (self.ends(face_path.from, named), self.ends(face_path.to, named));
         face_path.first = self.next_conductor();
         let whole = indices.iter().any(|index| !index.is_empty());
         if whole {
@@ -88,9 +107,16 @@ impl NetworkBuilder {
         grid.face_places(at.face).map(|place| grid.parts_of_face(at.face, place)).collect()
     }
 
-    fn ends(&mut self, terminal: Terminal, count: usize) -> Vec<End> {
+    /// The ends at a terminal, one for each cell of the face that names the parts.
+    pub(super) fn ends(&mut self, terminal: Terminal, named: Option<GridFace>) -> Vec<End> {
         match terminal {
-            Terminal::End(end) => vec![end; count],
+            Terminal::End(end) => {
+                vec![
+                    end;
+                    named.map_or(0, |at| self.parts.grids[at.grid.index()].face_count(at.face))
+                ]
+            }
+            Terminal::Stream(id) => named.map_or_else(Vec::new, |at| self.rows_of(id, at)),
             Terminal::Face(at) => {
                 self.surfaces(at.grid, at.face).into_iter().map(End::Node).collect()
             }
@@ -125,6 +151,9 @@ impl NetworkBuilder {
         if kind(a) != kind(b) || both_curved {
             let names = [a, b].map(|at| grid(at).face_name(at.face));
             return Some(BuildErrorKind::FaceShapes { item, faces: [a, b], names });
+        }
+        if kind(a).is_none() {
+            return None;
         }
         let cells = |at: GridFace| at.face.along().map(|axis| grid(at).cells[axis]);
         let name = |at: GridFace| grid(at).face_name(at.face);
@@ -174,7 +203,7 @@ impl Path {
     }
 
     /// One of `count` equal parts of it, side by side.
-    fn shared(self, count: f64) -> Self {
+    pub(super) fn shared(self, count: f64) -> Self {
         let times = |factor: f64| {
             move |input: Input| Input { value: scaled(&input.value, factor), ..input }
         };

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::builder::NetworkBuilder;
-use crate::id::{End, Item, NodeId};
+use crate::id::{End, Item, NodeId, StateId};
 use crate::value::Value;
 
 impl NetworkBuilder {
@@ -20,6 +20,12 @@ impl NetworkBuilder {
             Item::Boundary(id) => Some(End::Boundary(id)),
             _ => None,
         }
+    }
+
+    /// The state of this name.
+    pub fn state_named(&self, name: &str) -> Option<StateId> {
+        let place = self.parts.states.iter().position(|state| state.name == name)?;
+        Some(StateId::from_len(place))
     }
 
     /// The names of all nodes, and of all boundaries unless `only_nodes`.

@@ -2,10 +2,13 @@
 
 pub(crate) mod control;
 pub(crate) mod face_path;
+mod face_stream;
 pub(crate) mod grid;
 mod grid_path;
+mod joint;
 pub(crate) mod lookup;
 pub(crate) mod numbered;
+mod pipe;
 mod register;
 pub(crate) mod result;
 pub(crate) mod signal;
@@ -28,6 +31,7 @@ use crate::network::Network;
 use crate::numbers::Numbers;
 use crate::parts::Parts;
 use crate::parts::element::{Boundary, Capacitor, Node, Parameter};
+use crate::parts::functional::OverTime;
 use crate::parts::result::{Bound, Limit, LimitSeverity};
 use crate::parts::whole;
 use crate::scope::{Context, NetworkScope};
@@ -275,7 +279,8 @@ impl NetworkBuilder {
     }
 
     /// Adds a limit: `of`, written as `text`, has to stay below or above a value of the same type,
-    /// which is constant.
+    /// which is constant. For a number over time, `of` is the quantity with the type of the number,
+    /// see [`NetworkBuilder::limit_over_time`].
     pub fn limit(
         &mut self,
         name: &str,
@@ -294,7 +299,7 @@ impl NetworkBuilder {
             bound,
             value,
             compares: false,
-            of_mean: false,
+            over_time: [None, None],
             severity,
             text,
         });
@@ -302,9 +307,9 @@ impl NetworkBuilder {
         id
     }
 
-    /// Applies a limit that was added to the mean over time of its quantity.
-    pub fn limit_of_mean(&mut self, id: LimitId) {
-        self.parts.limits[id.index()].of_mean = true;
+    /// Applies a limit that was added to a functional of its quantity.
+    pub fn limit_over_time(&mut self, id: LimitId, over_time: OverTime) {
+        self.parts.limits[id.index()].over_time[0] = Some(over_time);
     }
 
     /// Checks everything and gives the network.

@@ -4,6 +4,7 @@ use crate::id::{ConductorId, FacePathId, Item, NodeId};
 use crate::network::Network;
 use crate::parts::grid::{Face, Terminal};
 use crate::parts::grid_value::GridValue;
+use crate::parts::overlap::{Joint, Overlap};
 
 impl Network {
     /// The item that a node or conductor is a part of: the grid of a cell, a surface node or an
@@ -66,6 +67,7 @@ impl Network {
         match terminal {
             Terminal::End(end) => self.name_of(end.into()).into_owned(),
             Terminal::Face(at) => self.grids()[at.grid.index()].face_name(at.face),
+            Terminal::Stream(id) => self.parts.face_streams[id.index()].name.clone(),
         }
     }
 
@@ -77,6 +79,17 @@ impl Network {
         let grid = &self.grids()[grid.index()];
         let face = Face::ALL.into_iter().find(|face| grid.surfaces(*face).any(|node| node == id));
         face.map_or_else(|| grid.name.clone(), |face| grid.face_name(face))
+    }
+
+    /// The shares of two faces of blocks that touch; `None` for other paths and for equal faces.
+    pub fn touching(&self, id: FacePathId) -> Option<[f64; 2]> {
+        let path = &self.face_paths()[id.index()];
+        let faces = self.parts.joined_blocks(path)?;
+        if matches!(path.joint, Joint::CellByCell) {
+            return None;
+        }
+        let along = self.parts.along(faces, &path.placement, &mut self.evaluation());
+        Some(Overlap::of(along, &path.placement)?.shares)
     }
 
     /// The paths to faces that are more than one conductor, whose heat is a sum; the others are

@@ -11,6 +11,7 @@ pub(crate) mod grid;
 mod group;
 pub(crate) mod lists;
 pub(crate) mod mass;
+pub(crate) mod pipe;
 pub(crate) mod result;
 pub(crate) mod state;
 pub(crate) mod switch;

@@ -8,6 +8,7 @@ use crate::evaluation::Evaluation;
 use crate::id::{ConductorId, End, Field, Item, LimitId, ReportId};
 use crate::input_error::{InputError, InputProblem};
 use crate::network::Network;
+use crate::parts::functional::{Functional, History};
 use crate::parts::heat::HeatOf;
 use crate::parts::layout::Holds;
 use crate::parts::result::{Bound, Report};
@@ -32,14 +33,57 @@ impl Network {
     /// # Errors
     /// As [`Network::limit_margin`].
     pub fn limit_sides(&self, id: LimitId, scope: &mut Evaluation) -> Result<[f64; 2], InputError> {
+        let sides = [self.limit_side((id, 0), scope)?, self.limit_side((id, 1), scope)?];
+        Ok(self.ordered(id, sides))
+    }
+
+    /// One of the sides of a limit (0: `of`, 1: its bound) at the state of `scope`, in SI units.
+    ///
+    /// # Errors
+    /// As [`Network::limit_margin`].
+    pub fn limit_side(
+        &self,
+        (id, side): (LimitId, usize),
+        scope: &mut Evaluation,
+    ) -> Result<f64, InputError> {
         let limit = &self.limits()[id.index()];
-        let item = Item::Limit(id);
-        let of = self.number(item, Field::Of, &limit.of, scope)?;
-        let value = self.number(item, limit.bound.field(), &limit.value, scope)?;
-        Ok(match limit.bound {
+        let field = [Field::Of, limit.bound.field()][side];
+        self.number(Item::Limit(id), field, limit.sides()[side], scope)
+    }
+
+    /// The numbers over time that a limit compares, as [`Network::limit_sides`], from the time
+    /// histories of its sides.
+    ///
+    /// # Errors
+    /// [`InputError`] if a value fails.
+    pub fn limit_over_time(
+        &self,
+        id: LimitId,
+        seen: &[History; 2],
+        scope: &mut Evaluation,
+    ) -> Result<[f64; 2], InputError> {
+        let mut number = |side: usize| {
+            let over_time = self.limits()[id.index()].over_time[side].as_ref();
+            let life = over_time.and_then(|over_time| over_time.life.as_ref());
+            let life = life.map(|life| self.number(Item::Limit(id), Field::Of, life, scope));
+            let functional = over_time.map_or(Functional::Value, |over_time| over_time.functional);
+            Ok(functional.of(&seen[side], life.transpose()?))
+        };
+        Ok(self.ordered(id, [number(0)?, number(1)?]))
+    }
+
+    /// The side that has to be below, and the one that has to be above it.
+    fn ordered(&self, id: LimitId, [of, value]: [f64; 2]) -> [f64; 2] {
+        match self.limits()[id.index()].bound {
             Bound::Below => [of, value],
             Bound::Above => [value, of],
-        })
+        }
+    }
+
+    /// The type of one of the sides of a limit at one moment.
+    pub fn limit_side_type(&self, (id, side): (LimitId, usize)) -> Type {
+        let limit = &self.limits()[id.index()];
+        limit.over_time[side].as_ref().map_or(limit.ty, |over_time| over_time.of_ty)
     }
 
     pub(crate) fn number(

@@ -1,6 +1,6 @@
 //! Heat flow of each conductor, as far as the parameters determine it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use lptn_laws::Carries;
@@ -11,6 +11,7 @@ use crate::id::{ConductorId, Field, Item, SourceId};
 use crate::law::{At, ConductorFlow, Law};
 use crate::numbers::Work;
 use crate::parts::element::Conductor;
+use crate::parts::overlap::{Joint, Overlap};
 use crate::slot;
 use crate::value::Value;
 use lptn_laws::Range;
@@ -22,16 +23,37 @@ impl Work<'_> {
         let last = conductors.iter().rposition(is_more);
         let conductors = &conductors[..last.map_or(0, |last| last + 1)];
         let mut flows: Vec<ConductorFlow> = Vec::with_capacity(conductors.len());
+        let apart = self.apart();
         for (i, conductor) in conductors.iter().enumerate() {
             let item = Item::Conductor(ConductorId::from_len(i));
             flows.push(match conductor.law.number() {
                 Some(conductance) => ConductorFlow::Conductance(conductance),
+                None if apart.contains(&i) => ConductorFlow::Conductance(0.0),
                 // in a grid thousands are alike
                 None if self.parts.is_like_the_last_conductor(i) => flows[i - 1],
                 None => self.flow(item, conductor),
             });
         }
         flows
+    }
+
+    /// The conductors between cells that parameters moved apart.
+    fn apart(&mut self) -> BTreeSet<usize> {
+        let (parts, mut apart) = (self.parts, BTreeSet::new());
+        for path in &parts.face_paths {
+            let (Joint::Moving(cells), Some(faces)) = (&path.joint, parts.joined_blocks(path))
+            else {
+                continue;
+            };
+            let along = parts.along(faces, &path.placement, &mut self.scope);
+            let touching = Overlap::of(along, &path.placement).map_or(Vec::new(), |all| all.pairs);
+            let touches =
+                |of: &[[usize; 2]; 2]| touching.binary_search_by_key(of, |pair| pair.cells).is_ok();
+            let conductors = path.conductors().zip(cells);
+            let idle = conductors.filter(|(_, of)| !touches(of));
+            apart.extend(idle.map(|(id, _)| id.index()));
+        }
+        apart
     }
 
     fn flow(&mut self, item: Item, conductor: &Conductor) -> ConductorFlow {

@@ -7,14 +7,11 @@ use crate::evaluation::Evaluation;
 use crate::id::{FacePathId, Field, GridId, Item};
 use crate::numbers::Work;
 use crate::parts::Parts;
-use crate::parts::grid::{Grid, GridFace, Substance};
+use crate::parts::grid::{FacePath, Grid, GridFace, Substance};
+use crate::parts::overlap::{Along, Joint, Overlap, Placement, SAME, is_whole};
 use crate::parts::shape::Shape;
 use crate::value::Value;
 use lptn_laws::Range;
-
-/// Largest relative difference of two areas that are meant to be the same: numbers are rounded to a
-/// few digits.
-const SAME: f64 = 1e-3;
 
 /// An angle this close to the full circle, as a share of it, is the full circle.
 const CLOSED: f64 = 1e-12;
@@ -28,14 +25,31 @@ const RATIO: f64 = 1e-12;
 pub(crate) fn ring_radii(parts: &Parts, shape: &Shape) -> Option<[f64; 2]> {
     let Shape::Cylinder { r_in, r_out, .. } = shape else { return None };
     let Some(r_in) = r_in else { return Some([0.0, 1.0]) };
-    let scope = Evaluation::new(&parts.layout, &[]);
-    let mut work = Work { parts, scope, errors: Vec::new() };
-    if !matches!((r_in, r_out), (Value::Constant(_), Value::Constant(_))) {
-        work.parameters(&[]);
-    }
-    let [inner, outer] = [r_in, r_out].map(|r| r.at(&mut work.scope).unwrap_or(f64::NAN));
+    let mut scope = as_written(parts, &[r_in, r_out]);
+    let [inner, outer] = [r_in, r_out].map(|r| r.at(&mut scope).unwrap_or(f64::NAN));
     let sound = inner > 0.0 && inner < outer && outer.is_finite();
     Some(if sound { [inner, outer] } else { [0.5, 1.0] })
+}
+
+/// An evaluation of these values by the parameters as they are written.
+fn as_written(parts: &Parts, values: &[&Value]) -> Evaluation {
+    let scope = Evaluation::new(&parts.layout, &[]);
+    let mut work = Work { parts, scope, errors: Vec::new() };
+    if values.iter().any(|value| !matches!(value, Value::Constant(_))) {
+        work.parameters(&[]);
+    }
+    work.scope
+}
+
+/// Two faces of blocks along each axis of the second one, by the parameters as they are written.
+pub(crate) fn written_along(
+    parts: &Parts,
+    faces: [GridFace; 2],
+    placement: &Placement,
+) -> [Along; 2] {
+    let sizes = faces.iter().flat_map(|at| parts.grids[at.grid.index()].shape.values());
+    let values: Vec<&Value> = sizes.chain(placement.offset.iter().flatten()).collect();
+    parts.along(faces, placement, &mut as_written(parts, &values))
 }
 
 fn differ(a: f64, b: f64) -> bool {
@@ -68,26 +82,66 @@ impl Work<'_> {
     }
 
     /// Checks that a path has the area of the face it ends at, and that two faces that are joined
-    /// are of the same size.
+    /// touch at the cells for which they are.
     pub(crate) fn check_face_paths(&mut self) {
         let parts = self.parts;
         for (i, face_path) in parts.face_paths.iter().enumerate() {
             let item = Item::FacePath(FacePathId::from_len(i));
             let faces: Vec<GridFace> = face_path.faces().collect();
+            let (mut common, before) = (None, self.errors.len());
             if let ([a, b], true) = (&faces[..], face_path.conductors().len() > 0) {
-                self.check_sides(item, [*a, *b]);
-            }
-            let constant = face_path.area.as_ref().filter(|area| parts.reads(area).is_constant());
-            if let (Some(area), Some(&face)) = (constant, faces.first()) {
-                let given = area.at(&mut self.scope).unwrap_or(f64::NAN);
-                let [u, v] = self.sides(face);
-                if differ(given, u * v) {
-                    let name = parts.grids[face.grid.index()].face_name(face.face);
-                    self.error(
-                        item,
-                        BuildErrorKind::FaceArea { item, given, face, name, area: u * v },
-                    );
+                match parts.joined_blocks(face_path) {
+                    Some(faces) => common = self.check_overlap(item, faces, face_path),
+                    None => self.check_sides(item, [*a, *b]),
                 }
+            }
+            if self.errors.len() == before && face_path.conductors().len() > 0 {
+                self.check_area(item, face_path, common);
+            }
+        }
+    }
+
+    /// Checks the area that is given: that of the face, or the common one of two.
+    fn check_area(&mut self, item: Item, face_path: &FacePath, common: Option<f64>) {
+        let parts = self.parts;
+        let constant = face_path.area.as_ref().filter(|area| parts.reads(area).is_constant());
+        let (Some(area), Some(face)) = (constant, face_path.faces().next()) else { return };
+        let given = area.at(&mut self.scope).unwrap_or(f64::NAN);
+        let names: Vec<String> = face_path.faces().map(|at| parts.face_name(at)).collect();
+        let (name, area) = match common {
+            Some(area) => (format!("the overlap of `{}`", names.join("` and `")), area),
+            None => (format!("the face `{}`", names[0]), self.sides(face).into_iter().product()),
+        };
+        if differ(given, area) {
+            self.error(item, BuildErrorKind::FaceArea { item, given, face, name, area });
+        }
+    }
+
+    /// Checks that two faces of blocks touch, cell by cell if they are joined so; the area that they
+    /// have in common otherwise.
+    fn check_overlap(
+        &mut self,
+        item: Item,
+        faces: [GridFace; 2],
+        face_path: &FacePath,
+    ) -> Option<f64> {
+        let (parts, placement) = (self.parts, &face_path.placement);
+        for value in placement.offset.iter().flatten() {
+            self.constant(item, Field::Offset, value, Range::Finite);
+        }
+        let along = parts.along(faces, placement, &mut self.scope);
+        let names = faces.map(|at| parts.face_name(at));
+        match (&face_path.joint, Overlap::of(along, placement)) {
+            (Joint::CellByCell, _) if !is_whole(&along, placement) => {
+                self.error(item, BuildErrorKind::FacesMoved { item, faces, names });
+                None
+            }
+            (Joint::CellByCell, _) => None,
+            (_, Some(overlap)) => Some(overlap.area),
+            (_, None) => {
+                let most = along.map(|axis| axis.most_offset());
+                self.error(item, BuildErrorKind::FacesApart { item, faces, names, most });
+                None
             }
         }
     }
@@ -122,12 +176,12 @@ impl Work<'_> {
     fn check_sides(&mut self, item: Item, faces: [GridFace; 2]) {
         let radii = faces.map(|face| self.outer_radius(face));
         if faces.iter().any(|at| at.face.axis() != 0) && differ(radii[0], radii[1]) {
-            let names = faces.map(|at| self.parts.grids[at.grid.index()].face_name(at.face));
+            let names = faces.map(|at| self.parts.face_name(at));
             return self.error(item, BuildErrorKind::FaceShapes { item, faces, names });
         }
         let sides = faces.map(|face| self.sides(face));
         if (0..2).any(|side| differ(sides[0][side], sides[1][side])) {
-            let names = faces.map(|at| self.parts.grids[at.grid.index()].face_name(at.face));
+            let names = faces.map(|at| self.parts.face_name(at));
             self.error(item, BuildErrorKind::FaceSides { item, faces, names, sides });
         }
     }

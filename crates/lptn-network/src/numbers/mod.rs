@@ -4,6 +4,7 @@ pub(crate) mod conductance;
 pub(crate) mod content;
 pub(crate) mod control;
 pub(crate) mod grid;
+pub(crate) mod pipe;
 pub(crate) mod state;
 pub(crate) mod substance;
 
@@ -19,6 +20,7 @@ use crate::law::ConductorFlow;
 use crate::numbers::content::Curves;
 use crate::parts::Parts;
 use crate::parts::element::Parameter;
+use crate::parts::pipe::Pipe;
 use crate::parts::whole;
 use crate::slot;
 use crate::value::Value;
@@ -47,6 +49,7 @@ pub(crate) struct Numbers {
     pub(crate) min_dwell: Vec<f64>,
     /// Least and greatest value of each state in SI units; infinite without a bound.
     pub(crate) bounds: Vec<[f64; 2]>,
+    pub(crate) pipes: Vec<Pipe>,
 }
 
 impl Numbers {
@@ -78,6 +81,7 @@ impl Numbers {
         work.check_limits();
         let min_dwell = work.controls();
         let bounds = work.check_states();
+        let pipes = work.pipes();
         whole::collapse(parts, &mut work.errors);
         if !work.errors.is_empty() {
             return Err(work.errors);
@@ -104,6 +108,7 @@ impl Numbers {
                 shapes,
                 min_dwell,
                 bounds,
+                pipes,
             })
         } else {
             Err(work.errors)

@@ -10,8 +10,9 @@
 
 use lptn_laws::Kind;
 
-use crate::id::{BoundaryId, ConductorId, End, GridId, Item, MaterialId, NodeId};
+use crate::id::{BoundaryId, ConductorId, End, FaceStreamId, GridId, Item, MaterialId, NodeId};
 pub use crate::parts::face::Face;
+use crate::parts::overlap::{Joint, Placement};
 use crate::parts::rings::Rings;
 use crate::parts::shape::{Form, Shape};
 use crate::value::Value;
@@ -176,6 +177,8 @@ pub enum Terminal {
     End(End),
     /// A face of a grid.
     Face(GridFace),
+    /// A stream along a face: the fluid of each row of cells.
+    Stream(FaceStreamId),
 }
 
 impl From<End> for Terminal {
@@ -213,14 +216,20 @@ pub struct FacePath {
     pub from: Terminal,
     /// The end that positive heat enters.
     pub to: Terminal,
-    /// Its whole area in m^2, if it is given; it has to be that of the face.
+    /// Its whole area in m^2, if it is given; it has to be that of the face, or the common area of
+    /// two.
     pub area: Option<Value>,
+    /// The place of the first of two faces on the second.
+    pub(crate) placement: Placement,
+    /// How its conductors follow from the cells of two faces.
+    pub(crate) joint: Joint,
     pub(crate) first: u32,
     pub(crate) end: u32,
 }
 
 impl FacePath {
-    /// Its conductors, `NAME[j,k]` by the cells of the face it starts at, else of that it ends at.
+    /// Its conductors, `NAME[j,k]` by the cells of the face it starts at, else of that it ends at;
+    /// `NAME[j,k,l,m]` by both if they overlap in part.
     /// At the end of a rod, whose cell has no index there, one conductor named as the path.
     pub fn conductors(&self) -> impl ExactSizeIterator<Item = ConductorId> + use<> {
         (self.first as usize..self.end as usize).map(ConductorId::from_len)
@@ -230,7 +239,7 @@ impl FacePath {
     pub fn faces(&self) -> impl Iterator<Item = GridFace> + use<> {
         [self.from, self.to].into_iter().filter_map(|terminal| match terminal {
             Terminal::Face(face) => Some(face),
-            Terminal::End(_) => None,
+            Terminal::End(_) | Terminal::Stream(_) => None,
         })
     }
 }

@@ -9,6 +9,8 @@ pub(crate) mod control;
 pub(crate) mod dependence;
 pub(crate) mod element;
 pub(crate) mod face;
+pub(crate) mod face_stream;
+pub(crate) mod functional;
 pub(crate) mod grid;
 pub(crate) mod grid_names;
 mod grid_parts;
@@ -20,6 +22,9 @@ pub(crate) mod label;
 pub(crate) mod layout;
 pub(crate) mod named;
 pub(crate) mod named_value;
+pub(crate) mod overlap;
+pub(crate) mod pipe;
+pub(crate) mod placement;
 pub(crate) mod reads;
 pub(crate) mod result;
 pub(crate) mod rings;
@@ -45,10 +50,12 @@ use crate::name_index::NameIndex;
 use crate::parts::control::Control;
 use crate::parts::dependence::{Dependence, OfConductor};
 use crate::parts::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
+use crate::parts::face_stream::FaceStream;
 use crate::parts::grid::{FacePath, Grid, Inner};
 use crate::parts::label::{CONDUCTOR, Label, parsed};
 use crate::parts::layout::Layout;
 use crate::parts::named_value::NamedValue;
+use crate::parts::pipe::PipePart;
 use crate::parts::result::{Limit, Report};
 use crate::parts::signal::Course;
 use crate::parts::state::State;
@@ -73,10 +80,12 @@ pub(crate) struct Parts {
     /// In the order of their nodes.
     pub(crate) states: Vec<State>,
     pub(crate) named_values: Vec<NamedValue>,
+    pub(crate) pipes: Vec<PipePart>,
     pub(crate) materials: Vec<Material>,
     pub(crate) fluids: Vec<Fluid>,
     pub(crate) grids: Vec<Grid>,
     pub(crate) face_paths: Vec<FacePath>,
+    pub(crate) face_streams: Vec<FaceStream>,
     /// The nodes and conductors that are parts of grids and joints, in order.
     pub(crate) inner_nodes: Vec<Inner>,
     pub(crate) inner_conductors: Vec<Inner>,

@@ -3,6 +3,7 @@
 use lptn_units::Type;
 
 use crate::id::Field;
+use crate::parts::functional::{Functional, OverTime};
 use crate::value::Value;
 
 /// The side on which a limited quantity has to stay.
@@ -21,6 +22,15 @@ impl Bound {
             Self::Below => Field::Below,
             Self::Above => Field::Above,
         }
+    }
+
+    /// True if a functional has to stay on this side exactly if every value has to: the largest
+    /// value is below a bound if all values are.
+    pub fn is_of_moments(self, functional: Functional) -> bool {
+        matches!(
+            (self, functional),
+            (Self::Below, Functional::Max) | (Self::Above, Functional::Min)
+        )
     }
 }
 
@@ -41,7 +51,7 @@ pub struct Limit {
     /// The quantity: an expression over parameters, `t`, signals, tables, temperatures and heat
     /// flows of the results.
     pub of: Value,
-    /// The type of `of` and of `value`.
+    /// The type of both sides; a functional of `of` may have another type than `of`.
     pub ty: Type,
     /// The side on which it has to stay.
     pub bound: Bound,
@@ -50,9 +60,9 @@ pub struct Limit {
     /// True if `value` is a result too: a requirement of a study compares any two results. A limit
     /// of the builder does not.
     pub compares: bool,
-    /// True if the mean over time has to be kept, and not every moment: the mean is taken of `of`
-    /// and `value`.
-    pub of_mean: bool,
+    /// The functionals over time of `of` and of `value` that are compared, instead of both at every
+    /// moment.
+    pub over_time: [Option<OverTime>; 2],
     /// The consequence if it is broken.
     pub severity: LimitSeverity,
     /// `of` as it was written.
@@ -63,6 +73,11 @@ impl Limit {
     /// The quantity, and the value that it has to stay below or above.
     pub fn sides(&self) -> [&Value; 2] {
         [&self.of, &self.value]
+    }
+
+    /// True if it has to be kept at every moment, and not by a number over time.
+    pub fn is_of_moments(&self) -> bool {
+        self.over_time.iter().all(Option::is_none)
     }
 
     /// The type of the limit's margin: that of `of`, a difference for temperatures.

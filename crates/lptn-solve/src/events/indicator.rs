@@ -109,7 +109,7 @@ impl StateRates<'_> {
 
     fn of_limits(&mut self, time: f64) -> Result<Vec<EventIndicator>, InputError> {
         let network = self.system.network();
-        let at_moments = |id: &LimitId| !network.limits()[id.index()].of_mean;
+        let at_moments = |id: &LimitId| network.limits()[id.index()].is_of_moments();
         let limits: Vec<LimitId> = network.limit_ids().filter(at_moments).collect();
         if limits.is_empty() {
             return Ok(Vec::new());

@@ -14,11 +14,11 @@ use crate::limit_seen::tests::unseen;
 /// Results of margins in some steps, and their number of evaluations in addition to the points of
 /// each step.
 fn look<const N: usize>(
-    (steps, of_mean): (&[(f64, f64)], [bool; N]),
+    steps: &[(f64, f64)],
     margins: impl Fn(f64) -> [f64; N],
     sizes: [f64; N],
 ) -> (LimitLook, usize) {
-    let mut look = LimitLook::new(vec![unseen(); N], &of_mean, Bends::default());
+    let mut look = LimitLook::new(vec![unseen(); N], Bends::default());
     look.sizes = sizes.to_vec();
     let mut calls = 0;
     let mut at = |time: f64| {
@@ -38,7 +38,7 @@ const TWO: [(f64, f64); 2] = [(0.0, 10.0), (11.0, 21.0)];
 /// One limit over one step from 0 to 10 s: its least margin, the time of it, the time when it is
 /// broken, and the evaluations.
 fn one(margin: impl Fn(f64) -> f64) -> (f64, f64, Option<f64>, usize) {
-    let (look, looks) = look((&TWO[..1], [false]), |time| [margin(time)], [10.0]);
+    let (look, looks) = look(&TWO[..1], |time| [margin(time)], [10.0]);
     let seen = look.seen[0];
     assert!(seen.open == 0.0, "{seen:?}");
     (seen.margin, seen.worst_at, seen.broken_at, looks)
@@ -105,36 +105,26 @@ fn the_first_of_two_valleys_breaks_and_the_deeper_one_is_the_worst() {
 #[test]
 fn what_cannot_count_costs_no_look() {
     let valley = |t: f64| [if t <= 10.0 { 1.0 + t } else { 2.5 + (t - 13.6) * (t - 13.6) }];
-    let (found, looks) = look((&TWO, [false]), valley, [10.0]);
+    let (found, looks) = look(&TWO, valley, [10.0]);
     assert_eq!((found.seen[0].margin, looks), (1.0, 0));
     // a valley that no point shows to be below the least so far
     let valley = |t: f64| [if t <= 10.0 { 1.0 + t } else { 0.5 + (t - 13.6) * (t - 13.6) }];
-    let (found, looks) = look((&TWO, [false]), valley, [10.0]);
+    let (found, looks) = look(&TWO, valley, [10.0]);
     near(found.seen[0].margin, 0.5);
     assert_eq!(looks, 1);
     // below zero for the first time, though not lower than before is impossible: broken already
     let broken = |t: f64| [if t <= 10.0 { -t } else { (t - 13.6) * (t - 13.6) - 1.0 }];
-    let (found, looks) = look((&TWO, [false]), broken, [10.0]);
+    let (found, looks) = look(&TWO, broken, [10.0]);
     assert_eq!((found.seen[0].margin, found.seen[0].worst_at), (-10.0, 10.0));
     assert_eq!(looks, 1, "the passage at the start");
 }
 
-/// The mean is an integral; it is cut and halved where the margin jumps, as others are not.
+/// Above the least so far, the jump of an unbroken limit is ignored.
 #[test]
-fn a_mean_is_integrated_and_asks_for_halvings_of_its_own() {
+fn a_jump_that_cannot_count_is_ignored() {
     let jump = |t: f64| if t < 3.3 { 4.0 } else { 9.0 };
-    let margins = |t: f64| [2.0 + t * t, jump(t)];
-    let (found, looks) = look((&TWO[..1], [true, true]), margins, [10.0; 2]);
-    near(found.integral(0).unwrap(), 20.0 + 1000.0 / 3.0);
-    assert!((found.integral(1).unwrap() - 4.0 * 3.3 - 9.0 * 6.7).abs() < 1e-9);
-    assert!(looks > 300 && looks <= 440, "{looks}");
-    assert!(found.seen.iter().all(|seen| seen.open == 0.0 && seen.margin == f64::INFINITY));
-    let (found, looks) = look((&TWO, [false, true]), margins, [10.0; 2]);
-    assert!((found.integral(1).unwrap() - 4.0 * 3.3 - 9.0 * 16.7).abs() < 1e-9);
-    assert!(found.integral(0).is_none() && looks <= 440, "{looks}");
-    // above the least so far, the jump of an unbroken limit is ignored
     let margins = |t: f64| [if t <= 10.0 { 0.0 } else { 1.0 + jump(t - 10.0) }];
-    let (found, looks) = look((&TWO, [false]), margins, [10.0]);
+    let (found, looks) = look(&TWO, margins, [10.0]);
     assert_eq!((found.seen[0].margin, looks), (0.0, 0));
 }
 
@@ -144,7 +134,7 @@ fn rounding_of_what_is_compared_is_not_looked_into() {
     let noise = |t: f64| if (1e6 * t).sin() > 0.0 { 1.0 } else { -1.0 };
     let looks = |share: f64, size: f64, base: f64| {
         let margins = |t: f64| [base + share * size * noise(t)];
-        look((&TWO[..1], [true]), margins, [size]).1
+        look(&TWO[..1], margins, [size]).1
     };
     for size in [1e-3, 1.0, 1e3] {
         assert_eq!(looks(1e-13, size, 0.0), 0, "{size}");
@@ -162,7 +152,7 @@ fn noise_leaves_a_margin_open_by_what_was_seen_of_it() {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         f64::from(state) / f64::from(u32::MAX)
     };
-    let mut look = LimitLook::new(vec![unseen(); 3], &[false; 3], Bends::default());
+    let mut look = LimitLook::new(vec![unseen(); 3], Bends::default());
     look.sizes = vec![10.0; 3];
     look.seen[1].margin = -100.0;
     look.seen[1].broken_at = Some(0.0);
@@ -247,7 +237,7 @@ fn bumped(ends: (f64, f64), by: f64) -> Interval {
 fn what_is_wanting_is_the_difference_of_both_rules_over_what_is_allowed() {
     let weight = crate::interval::GAUSS[0].1;
     let wanting = |ends: (f64, f64), by: f64, size: f64| {
-        let mut look = LimitLook::new(vec![unseen()], &[false], Bends::default());
+        let mut look = LimitLook::new(vec![unseen()], Bends::default());
         look.sizes = vec![size];
         look.wanting(&bumped(ends, by))
     };
@@ -265,23 +255,22 @@ fn what_is_wanting_is_the_difference_of_both_rules_over_what_is_allowed() {
     }
 }
 
-/// A limit that is far from counting wants nothing; the mean of one always may.
+/// A limit that is far from counting wants nothing.
 #[test]
-fn what_cannot_count_wants_nothing_but_for_a_mean() {
-    let wanting = |of_mean: bool, seen: LimitSeen| {
-        let mut look = LimitLook::new(vec![seen], &[of_mean], Bends::default());
+fn what_cannot_count_wants_nothing() {
+    let wanting = |seen: LimitSeen| {
+        let mut look = LimitLook::new(vec![seen], Bends::default());
         look.sizes = vec![2.0];
         look.wanting(&bumped((0.0, 10.0), 0.1))
     };
     let broken = LimitSeen { margin: -5.0, broken_at: Some(0.0), ..unseen() };
-    assert!(wanting(false, broken) == 0.0 && wanting(true, broken) > 0.0);
-    assert!(wanting(false, unseen()) > 0.0);
+    assert!(wanting(broken) == 0.0);
+    assert!(wanting(unseen()) > 0.0);
 }
 
 /// A valley that is deeper than the points by less than a part in 1e12 of the sides is rounding.
 #[test]
 fn a_valley_within_the_rounding_of_what_is_compared_is_not_looked_for() {
-    let looks =
-        |size: f64| look((&TWO[..1], [false]), |t| [1.0 + 1e-8 * (t - 3.6) * (t - 3.6)], [size]).1;
+    let looks = |size: f64| look(&TWO[..1], |t| [1.0 + 1e-8 * (t - 3.6) * (t - 3.6)], [size]).1;
     assert_eq!([looks(1.0), looks(1e3), looks(1e6)], [1, 1, 0]);
 }

@@ -27,6 +27,10 @@ pub enum PeriodicError {
             six_digits(*heat)
         ),
         help "add a path to a boundary, or use `lptn run`";
+    /// The content of a pipe is not among the variables that a periodic state is found by.
+    Pipe { name: String } = "periodic::pipe",
+        format!("the periodic steady state of a network with the pipe `{name}` is not available"),
+        help "use `lptn run` over so many cycles that two of them are alike";
     /// The cycles do not reach the same state; the smallest difference in K between the start of a
     /// cycle and its end.
     NotFound { cycles: usize, residual: f64 } = "periodic::not_found",

@@ -14,6 +14,7 @@ use lptn_assembly::ThermalSystem;
 
 use crate::adiabatic::Island;
 use crate::exact::ExactCycle;
+use crate::pipe;
 use crate::settings::{Proceed, Progress, Transient};
 use crate::solution::Solution;
 use crate::state::State;
@@ -90,6 +91,9 @@ impl Periodic {
         settings
             .check()
             .map_err(|e| PeriodicError::Cycle(crate::error::TransientError::Settings(e)))?;
+        if let Some(name) = pipe::first(system) {
+            return Err(PeriodicError::Pipe { name });
+        }
         let (network, period) = (system.network(), settings.stop - settings.start);
         let repeats = network.check_period(settings.start, period)?;
         repeats.map_err(PeriodicError::NotPeriodic)?;

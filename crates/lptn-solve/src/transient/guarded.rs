@@ -25,15 +25,18 @@ impl Transient {
 }
 
 impl Run<'_> {
-    /// Sets the latest end of the next step, for `stop` among other reasons.
-    pub(super) fn hold_step(&mut self, stop: f64) {
+    /// Sets the latest end and the greatest length of the next step in s, for `stop` and `longest`
+    /// among other reasons.
+    pub(super) fn hold_step(&mut self, stop: f64, longest: f64) {
         let mut stop = stop;
         if let Some(guard) = &mut self.guard {
             stop = stop.min(guard.end_of_step(self.integrator.as_mut()));
         }
         self.integrator.set_stop(stop);
-        if let Some(curved) = &self.curved {
-            self.integrator.set_longest_step(curved.longest(self.integrator.time()));
+        let curved = self.curved.as_ref().map(|curved| curved.longest(self.integrator.time()));
+        if curved.is_some() || self.pipes.is_some() {
+            let longest = longest.min(curved.unwrap_or(f64::INFINITY));
+            self.integrator.set_longest_step(longest);
         }
     }
 

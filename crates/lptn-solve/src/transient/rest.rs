@@ -12,7 +12,7 @@ use crate::readings::Readings;
 use crate::recorder::Recorder;
 use crate::selection::RecordedNodes;
 use crate::settings::Transient;
-use crate::standing;
+use crate::standing::{self, is_counter};
 use crate::state::State;
 use crate::times::{Segment, just_after};
 use crate::transient::{Care, Effort, Run};
@@ -135,6 +135,16 @@ impl<'a> Run<'a> {
             .temperatures(time, &state)
             .ok()
             .map(|(temperatures, _)| temperatures.to_vec())
+            .map(|temperatures| self.without_counters(temperatures))
+    }
+
+    /// The same with the states that count fluid at their start: they go on without end.
+    fn without_counters(&self, mut temperatures: Vec<f64>) -> Vec<f64> {
+        let system = self.recorder.system();
+        for unknown in (0..system.states().len()).filter(|i| is_counter(system, *i)) {
+            temperatures[unknown] = system.network().initial(system.unknowns()[unknown]);
+        }
+        temperatures
     }
 
     /// True if it is so near to a stable state that it goes there.

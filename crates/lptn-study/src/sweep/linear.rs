@@ -1,10 +1,10 @@
 //! Candidates of small linear networks: no system and no integrator, the modes in closed form.
 
 use lptn_netlist::{Functional, SweepOver};
-use lptn_network::{IntegratorChoice, ParameterId};
+use lptn_network::{History, IntegratorChoice, ParameterId};
 use lptn_solve::{CourseSeen, FollowedQuantity, LinearVariants, Look};
 
-use crate::sweep::task::{Candidate, Seen, SweepTask, taken};
+use crate::sweep::task::{Candidate, SweepTask};
 
 /// A sweep whose candidates are solved in closed form. A candidate that has no closed form is left
 /// to [`SweepTask::candidate`], so that every row is the same however the sweep is divided.
@@ -71,11 +71,9 @@ impl<'a> LinearSweep<'a> {
             let seen = self.linear.run(self.span, &self.breakpoints, asked)?;
             let (mut seen, length) = (seen.iter(), self.span.1 - self.span.0);
             for measure in &study.reports {
-                let number = match measure.functional {
+                let number = match measure.functional() {
                     Functional::Value => measure.of.at(self.linear.scope()).ok()?,
-                    functional => {
-                        taken(functional, &of_course(seen.next()?, length), (length, None))
-                    }
+                    functional => functional.of(&of_course(seen.next()?, length), None),
                 };
                 reports.push(number + 0.0);
             }
@@ -86,11 +84,11 @@ impl<'a> LinearSweep<'a> {
 
 /// The quantities that the reports over time follow.
 fn followed<'a>(task: &'a SweepTask) -> Option<Vec<FollowedQuantity<'a>>> {
-    let timed = task.study().reports.iter().filter(|r| r.functional != Functional::Value);
+    let timed = task.study().reports.iter().filter(|r| r.functional() != Functional::Value);
     timed
         .map(|measure| {
             let with = task.network().follows(&measure.of)?;
-            let look = match measure.functional {
+            let look = match measure.functional() {
                 Functional::Life => return None,
                 Functional::Last | Functional::Value => Look::End,
                 Functional::Mean | Functional::Integral => Look::Integral,
@@ -101,7 +99,7 @@ fn followed<'a>(task: &'a SweepTask) -> Option<Vec<FollowedQuantity<'a>>> {
         .collect()
 }
 
-fn of_course(seen: &CourseSeen, length: f64) -> Seen {
+fn of_course(seen: &CourseSeen, length: f64) -> History {
     let CourseSeen { last, min, max, integral, positive } = *seen;
-    Seen { last, min, max, mean: integral / length, positive }
+    History { last, min, max, mean: integral / length, positive, length }
 }

@@ -7,7 +7,7 @@ use lptn_analysis::{Analysis, AnalysisError, Found, RunAnalysis, RunError};
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Functional, Measure, Netlist, SweepOver, SweepStudy};
 use lptn_network::{Network, Parameters, Report, ReportId, RunSettings};
-use lptn_solve::{ColumnSeen, Proceed, Selection, Solution, SteadyState, Window};
+use lptn_solve::{Proceed, Selection, Solution, SteadyState, Window};
 
 use crate::sweep::cases::Cases;
 use crate::sweep::error::SweepError;
@@ -66,7 +66,7 @@ impl SweepTask {
         let report = |measure: &Measure| Report {
             name: measure.name.clone(),
             value: measure.of.clone(),
-            ty: measure.of_ty,
+            ty: measure.over_time.of_ty,
             text: measure.text.clone(),
         };
         let (network, reports) =
@@ -75,7 +75,7 @@ impl SweepTask {
             .reports
             .iter()
             .zip(&reports)
-            .filter(|(measure, _)| measure.functional != Functional::Value)
+            .filter(|(measure, _)| measure.functional() != Functional::Value)
             .map(|(_, id)| *id)
             .collect();
         let columns = Selection::of_reports(&timed);
@@ -212,60 +212,27 @@ impl SweepTask {
     }
 
     fn over_time(&self, solution: &Solution) -> Result<Vec<f64>, Lost> {
-        let seen = solution.windows().iter().flat_map(|window| &window.columns);
-        let length = solution.windows().first().map_or(0.0, |window| window.to - window.from);
+        let seen = solution.windows().iter();
+        let seen = seen.flat_map(|window| window.columns.iter().map(move |c| (window, c)));
         let mut scope = solution.network().evaluation();
-        let mut seen = seen.peekable();
+        let mut seen = seen;
         let mut reports = Vec::with_capacity(self.study.reports.len());
         for measure in &self.study.reports {
-            let number = match measure.functional {
+            let number = match measure.functional() {
                 Functional::Value => measure.of.at(&mut scope).map_err(failed)?,
                 functional => {
-                    let column = seen.next().ok_or(Lost::Failed(NOT_FINITE))?;
+                    let (window, column) = seen.next().ok_or(Lost::Failed(NOT_FINITE))?;
                     if column.is_open() {
                         return Err(Lost::Failed("run::unresolved"));
                     }
-                    let life = measure.life.as_ref().map(|life| life.at(&mut scope));
+                    let life = measure.over_time.life.as_ref().map(|life| life.at(&mut scope));
                     let life = life.transpose().map_err(failed)?;
-                    taken(functional, &of_column(column), (length, life))
+                    functional.of(&window.history(column), life)
                 }
             };
             reports.push(number + 0.0); // no `-0` in columns
         }
         Ok(reports)
-    }
-}
-
-/// Statistics of a quantity over a run.
-pub(super) struct Seen {
-    pub(super) last: f64,
-    pub(super) min: f64,
-    pub(super) max: f64,
-    pub(super) mean: f64,
-    /// Total time in s for which it was above zero.
-    pub(super) positive: f64,
-}
-
-fn of_column(column: &ColumnSeen) -> Seen {
-    let ColumnSeen { last, min, max, mean, positive, .. } = *column;
-    Seen { last, min: min.0, max: max.0, mean, positive }
-}
-
-/// The value of a functional from the statistics over a run of this length in s; `life` is that at
-/// the reference in s.
-pub(super) fn taken(
-    functional: Functional,
-    seen: &Seen,
-    (length, life): (f64, Option<f64>),
-) -> f64 {
-    match functional {
-        Functional::Value | Functional::Last => seen.last,
-        Functional::Max => seen.max,
-        Functional::Min => seen.min,
-        Functional::Mean => seen.mean,
-        Functional::Integral => seen.mean * length,
-        Functional::TimeOver | Functional::TimeUnder => seen.positive,
-        Functional::Life => life.unwrap_or(f64::NAN) / seen.mean,
     }
 }
 

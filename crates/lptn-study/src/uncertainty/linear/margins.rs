@@ -41,12 +41,12 @@ pub(super) fn effects(
         let margin = |row: usize| run.margin_in_row(limit.limit, row).unwrap_or(f64::NAN);
         let worst = (limit.worst_at, limit.margin);
         let row = own_side((run.solution.times(), margin), worst, ends);
-        let of_mean = task.network.limits()[limit.limit.index()].of_mean;
+        let of_moments = task.network.limits()[limit.limit.index()].is_of_moments();
         let one = |input: &Uncertain| {
             let by = PART * input.deviation;
-            let slope = match of_mean {
-                true => None,
-                false => run.margin_slope_in_row((input.parameter, by), (limit.limit, row))?,
+            let slope = match of_moments {
+                false => None,
+                true => run.margin_slope_in_row((input.parameter, by), (limit.limit, row))?,
             };
             slope.map_or_else(|| of_runs(task, (limit, input)), |s| Ok(s * input.deviation))
         };
@@ -56,7 +56,7 @@ pub(super) fn effects(
 }
 
 /// Half the difference of a margin between runs with the parameter one standard deviation to both
-/// sides: a mean has no moment at which it is least, and at a bend the moment moves too.
+/// sides: a number over time has no moment at which it is least, and at a bend the moment moves too.
 fn of_runs(
     task: &UncertaintyTask<'_>,
     (limit, input): (&LimitSeen, &Uncertain),
