@@ -93,16 +93,22 @@ def steel_k(t):
 
 
 def steel_points():
-    """Denser around the peak of cp at 735 degC."""
-    rising = [738 - 138 * (3 / 138) ** (i / 60) for i in range(61)]
-    falling = [731 + 4 * (168.7 / 4) ** (i / 60) for i in range(61)]
-    celsius = [*range(20, 600, 20), *rising, *falling[1:], *range(920, 1201, 40)]
+    """Denser around the peak of cp at 735 degC and where its formula changes."""
+    rising = [738 - 138 * (3.02 / 138) ** (i / 60) for i in range(61)]
+    falling = [731 + 4.02 * (169 / 4.02) ** (i / 60) for i in range(60)]
+    falling = [c for c in falling if c < 885] + [887, 893, 897, 899, 900]
+    celsius = [*range(20, 600, 20), 590, 597, 599.5, *rising, 735, *falling, *range(920, 1201, 40)]
     return [273.15 + c for c in celsius]
 
 
-# name, properties with their functions, temperatures, source
+# k is linear, with a step at 800 degC
+STEEL_K_POINTS = [273.15 + c for c in (20, 799.9, 800, 1200)]
+
+# name, properties with their functions, temperatures and interpolation, source
 SOLIDS = [
-    ("steel_en_1993", {"cp": steel_cp, "k": steel_k}, steel_points(), "EN 1993-1-2:2005, 3.4.1"),
+    ("steel_en_1993",
+     {"cp": (steel_cp, steel_points(), "pchip"), "k": (steel_k, STEEL_K_POINTS, "linear")},
+     "EN 1993-1-2:2005, 3.4.1"),
 ]
 
 
@@ -123,12 +129,12 @@ def films():
             y = ", ".join(number(at(letter, t)) for t in own)
             lines.append(f'{key} = {{ x = [{x}], x_unit = "K", y = [{y}], y_unit = "{unit}", interp = "pchip" }}')
     units = {key: unit for key, _, unit in PROPERTIES}
-    for name, properties, temperatures, source in SOLIDS:
+    for name, properties, source in SOLIDS:
         lines += ["", f"[material.{name}]", f'source = "{source}"']
-        x = ", ".join(number(t) for t in temperatures)
-        for key, at in properties.items():
+        for key, (at, temperatures, interp) in properties.items():
+            x = ", ".join(number(t) for t in temperatures)
             y = ", ".join(number(at(t)) for t in temperatures)
-            lines.append(f'{key} = {{ x = [{x}], x_unit = "K", y = [{y}], y_unit = "{units[key]}", interp = "pchip" }}')
+            lines.append(f'{key} = {{ x = [{x}], x_unit = "K", y = [{y}], y_unit = "{units[key]}", interp = "{interp}" }}')
     return "\n".join(lines) + "\n"
 
 

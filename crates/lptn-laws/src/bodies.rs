@@ -21,7 +21,7 @@ use crate::free_convection::{VerticalPlate, nusselt_vertical_plate, rayleigh, ra
 /// * `pr`: Prandtl number, 0.7 and above
 ///
 /// Source: S. W. Churchill, in Heat Exchanger Design Handbook (1983), section 2.5.7; Incropera et
-/// al., 6th edition, equation 9.35.
+/// al., 6th edition, equation 9.35. The library polykin has the same constants and range.
 pub fn nusselt_sphere_at_rest<S: Scalar>(ra: S, pr: S) -> S {
     let one = S::from_f64(1.0);
     let weight = (one + (S::from_f64(0.469) / pr).powf(9.0 / 16.0)).powf(4.0 / 9.0);
@@ -37,7 +37,7 @@ pub fn nusselt_sphere_at_rest<S: Scalar>(ra: S, pr: S) -> S {
 ///
 /// The source takes the properties of the free stream and a factor (mu/mu_surface)^(1/4), from 1 to
 /// 3.2, which is 1 here. Source: S. Whitaker, AIChE Journal 18 (1972) 361; Incropera et al., 6th
-/// edition, equation 7.56.
+/// edition, equation 7.56. The library polykin has the same constants and ranges.
 pub fn nusselt_sphere_in_flow<S: Scalar>(re: S, pr: S) -> S {
     let wake = S::from_f64(0.4) * re.sqrt() + S::from_f64(0.06) * re.powf(2.0 / 3.0);
     S::from_f64(2.0) + wake * pr.powf(0.4)
@@ -79,7 +79,7 @@ pub fn nusselt_disc<S: Scalar>(re: S) -> S {
 /// * `nozzle`: D/r of nozzle and disc; the area ratio a^2 is from 0.004 to 0.04
 ///
 /// Source: H. Martin, Advances in Heat Transfer 13 (1977) 1; Incropera et al., 6th edition,
-/// equations 7.75 and 7.76.
+/// equations 7.75 and 7.76. The manual of Altair Flow Simulator prints them, too.
 pub fn nusselt_jet<S: Scalar>(re: S, pr: S, distance: S, nozzle: S) -> S {
     let c = S::from_f64;
     let a = nozzle / c(2.0);
@@ -219,7 +219,7 @@ impl Law for Jet {
         equation: "Q = Nu k / diameter A (T_from - T_to), Nu = G 2 (Re (1 + 0.005 Re^0.55))^(1/2) \
             Pr^0.42, G = 2 a (1 - 2.2 a) / (1 + 0.2 (H/D - 6) a), a = D/(2 r)",
         fields: of_fluid![
-            SPEED,
+            FieldDeclaration { example: "\"30 m/s\"", ..SPEED },
             length("diameter", "diameter of the nozzle, D", "\"10 mm\""),
             length("distance", "distance of nozzle and plate, H", "\"50 mm\""),
             length("radius", "radius of the disc around the jet, r", "\"40 mm\""),

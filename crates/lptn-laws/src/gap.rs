@@ -17,7 +17,8 @@ use crate::free_convection::{VerticalPlate, rayleigh, rayleigh_within};
 /// * `ra`: Rayleigh number of the gap, at least 0, at most 1e8
 ///
 /// Source: K. G. T. Hollands, T. E. Unny, G. D. Raithby and L. Konicek, Journal of Heat Transfer 98
-/// (1976) 189, without an inclination; Incropera et al., 6th edition, equation 9.54.
+/// (1976) 189, without an inclination; Incropera et al., 6th edition, equation 9.54. The Modelica library IDEAS
+/// has the same constants.
 pub fn nusselt_gap_from_below<S: Scalar>(ra: S) -> S {
     let [zero, one] = [0.0, 1.0].map(S::from_f64);
     let ra = ra.max(one);

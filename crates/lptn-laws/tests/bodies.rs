@@ -1,5 +1,5 @@
-//! Films of spheres, discs, jets, inclined plates and gaps, against printed examples and numbers of
-//! NumPy.
+//! Films of spheres, discs, jets and gaps, against printed examples, the library ht, sums of local
+//! values and numbers by hand.
 
 use lptn_laws::{
     nusselt_disc, nusselt_gap_from_below, nusselt_gap_vertical, nusselt_jet,
@@ -32,8 +32,9 @@ fn sphere_at_rest_conducts() {
     near(2.0 + (found - 2.0) * factor, 25.670_869_440_317_578, 1e-12);
 }
 
-/// NumPy, trapezium of 2e6 steps over r of the local values at Re = 1e5, 2.2e5 and 1e6; Cobb and
-/// Saunders measured 0.36 Re^(1/2) and 0.015 Re^0.8 less the laminar part.
+/// The sum of the local values at 200 000 midpoints of the radius, at Re = 1e5, 2.2e5 and 1e6. It
+/// checks the integral, not the constants. Far from the transition the means of Cobb and Saunders,
+/// 0.36 Re^(1/2) and 0.015 Re^0.8, are within 6 %.
 #[test]
 fn mean_of_a_disc_is_that_of_its_local_values() {
     let local = |re: f64| match re {

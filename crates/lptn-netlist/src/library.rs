@@ -160,7 +160,11 @@ fn film(fluid: &RawEntry) -> Vec<(String, Table1)> {
     let property = |entry: &RawEntry| {
         let RawKind::Table(points) = &entry.value.kind else { return None };
         let (x, y) = (numbers(points, "x")?, numbers(points, "y")?);
-        let table = Table1::new(x, y, Interpolation::Pchip, Outside::Error).ok()?;
+        let interpolation = match text(points, "interp") {
+            Some("linear") => Interpolation::Linear,
+            _ => Interpolation::Pchip,
+        };
+        let table = Table1::new(x, y, interpolation, Outside::Error).ok()?;
         Some((entry.key.clone(), table))
     };
     properties.entries.iter().filter_map(property).collect()

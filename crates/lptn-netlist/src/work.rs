@@ -15,9 +15,9 @@ use crate::initial::StateFile;
 use crate::names::Names;
 use crate::raw::{RawEntry, RawNetlist};
 use crate::scales::Scales;
-use crate::section::texture::Texture;
 use crate::source_map::SourceMap;
 use crate::template::Structure;
+use crate::texture::Texture;
 
 /// Work in progress: the network as far as it is built, and everything found on the way.
 pub(crate) struct Elaboration<'a> {

@@ -132,6 +132,8 @@ const NEEDED_BESIDE: &[&str] = &[
     "mass_without_material",
     "melting",
     "mesh_scuffing",
+    "pipe_no_content",
+    "pipe_no_start",
     "plan_no_duration",
     "size_range_half",
 ];

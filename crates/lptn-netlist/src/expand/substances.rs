@@ -9,7 +9,7 @@ use lptn_units::{Dimension, LookupTable, Type};
 use super::Writer;
 use super::values::over_temperature;
 use crate::library;
-use crate::section::texture::Texture;
+use crate::texture::Texture;
 use crate::toml_text::{TomlFields, quantity, value};
 
 impl Writer<'_> {

@@ -11,11 +11,11 @@ use crate::place::Wanted;
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::reading::all;
 use crate::section::default::Initial;
+use crate::section::direction::AXIS_OF;
 use crate::section::grid_shape::{Made, SHAPES};
 use crate::section::keys::{CP, DENSITY, MATERIAL_OF};
 use crate::section::node::START;
 use crate::section::path_section::PATHS;
-use crate::section::texture::AXIS_OF;
 use crate::work::{Elaboration, stand_in};
 
 /// A body that is cut into cells.

@@ -13,8 +13,8 @@ use crate::section::fan::FAN;
 use crate::section::fluid::{FLUID, table};
 use crate::section::keys::{CP, DENSITY, SOURCE_OF};
 use crate::section::lubricant::LUBRICANT;
-use crate::section::texture::Texture;
 use crate::section::winding::WINDING;
+use crate::texture::Texture;
 use crate::work::{Elaboration, Known, stand_in};
 
 pub(crate) const MATERIAL: SectionDeclaration = SectionDeclaration {

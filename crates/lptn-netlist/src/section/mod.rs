@@ -6,6 +6,7 @@ mod conductor;
 mod control;
 mod curves;
 mod default;
+mod direction;
 mod end;
 mod fan;
 mod fluid;
@@ -30,7 +31,6 @@ mod source;
 mod state;
 mod stream_along;
 mod table;
-pub(crate) mod texture;
 mod top;
 mod winding;
 

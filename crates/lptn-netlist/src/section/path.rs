@@ -8,6 +8,7 @@ use lptn_units::{Expression, Quantity, Type, suggest};
 use crate::fields::Fields;
 use crate::place::{Place, Wanted};
 use crate::raw::{RawKind, RawValue};
+use crate::section::direction::DIRECTION_OF;
 use crate::section::fluid::UsedFluid;
 use crate::section::forms::{begun, check_forms};
 use crate::section::keys::{AT, LUBRICANT_OF};
@@ -15,7 +16,6 @@ use crate::section::path_law::{
     Read, not_a_list, of_values, types, with_article, without, written, wrong_count,
 };
 use crate::section::path_section::{PathSection, PathValue};
-use crate::section::texture::DIRECTION_OF;
 use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {

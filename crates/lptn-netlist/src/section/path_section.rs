@@ -7,9 +7,9 @@ use lptn_network::Context;
 use lptn_units::{Type, format_number};
 
 use crate::format::{KeyDeclaration, Role, SectionDeclaration, Takes, shaped, text, words};
+use crate::section::direction::DIRECTION_OF;
 use crate::section::keys::{AT, FLUID_OF, LUBRICANT_OF, MATERIAL_OF};
 use crate::section::path_law::{count, counts, types};
-use crate::section::texture::DIRECTION_OF;
 
 /// A kind of path or source with the consequences of its declaration, found once for all paths.
 pub(crate) struct PathSection {

@@ -15,7 +15,7 @@ use crate::fields::Fields;
 use crate::format::{Role, SectionDeclaration, number, text};
 use crate::place::{Given, Place, Wanted};
 use crate::raw::RawValue;
-use crate::section::texture::Texture;
+use crate::texture::Texture;
 use crate::work::Elaboration;
 
 pub(crate) const WINDING: SectionDeclaration = SectionDeclaration {

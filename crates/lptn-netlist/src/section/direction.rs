@@ -1,35 +1,14 @@
-//! Materials whose conductivity depends on the direction: layers, and the wires of a winding.
+//! `direction` of a path and `axis` of a grid: how a material of layers or wires lies in them.
 //!
-//! Both have one axis. `k_through` is the conductivity along it. A path and a grid always say in
-//! which direction the heat flows: no default would be right for half of the uses.
+//! Both are always given: no default would be right for half of the uses.
 
 use lptn_data::{Diagnostic, list};
 use lptn_network::Input;
 
 use crate::fields::Fields;
 use crate::format::{KeyDeclaration, words, words_of};
+use crate::texture::{DIRECTIONS, Texture};
 use crate::work::{Elaboration, Known};
-
-/// The directions that a material distinguishes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Texture {
-    /// None: it conducts equally in all directions.
-    Even,
-    /// The plane of its layers, and the axis across them.
-    Layers,
-    /// Across its wires, and the axis along them.
-    Wires,
-}
-
-/// A word for a direction: the texture that has it, and whether it is that of the axis.
-type Direction = (&'static str, (Texture, bool));
-
-const DIRECTIONS: [Direction; 4] = [
-    ("in_plane", (Texture::Layers, false)),
-    ("through_plane", (Texture::Layers, true)),
-    ("across_wires", (Texture::Wires, false)),
-    ("along_wires", (Texture::Wires, true)),
-];
 
 const DIRECTION_WORDS: [&str; 4] = words_of(&DIRECTIONS);
 
@@ -51,27 +30,6 @@ pub(super) const AXIS_OF: KeyDeclaration = words(
     "with a `material` of layers or wires: the direction across the layers, or along the wires",
     "\"z\"",
 );
-
-impl Texture {
-    /// The words for its two directions.
-    fn words(self) -> Vec<&'static str> {
-        let own = DIRECTIONS.iter().filter(|(_, (texture, _))| *texture == self);
-        own.map(|(word, _)| *word).collect()
-    }
-
-    /// The word for a direction.
-    pub(crate) fn word(self, axial: bool) -> Option<&'static str> {
-        DIRECTIONS.iter().find(|(_, meaning)| *meaning == (self, axial)).map(|(word, _)| *word)
-    }
-
-    fn noun(self) -> &'static str {
-        match self {
-            Self::Even => "conducts equally in all directions",
-            Self::Layers => "has layers",
-            Self::Wires => "is a winding",
-        }
-    }
-}
 
 impl<'a> Elaboration<'a> {
     /// The conductivity of a material in the direction of a path.
