@@ -208,3 +208,63 @@ fn a_stage_that_may_scuff_runs_without_load() {
         .says("netlist::scuffing_idle");
     folder.run(&["gear", "idle.toml", "--torque", "0 N m,5 N m"]).exits(0);
 }
+
+/// Gears H501 of GEARpie's report, with its shorter tips, k = x1 + x2 - (a - a0)/m: a 91.5 mm, eps_alpha 1.46, eps_beta 0.54, H_V 0.1639. The working
+/// pressure angle follows from the printed T1T2 = a sin(alpha_w) = 34.45 mm.
+const H501: &str = r#"
+format = 1
+[node]
+box = { C = "1 kJ/K", T0 = "20 degC" }
+[boundary]
+air = { T = "20 degC" }
+[resistor]
+skin = { from = "box", to = "air", R = "0.01 K/W" }
+[gearbox.pair]
+teeth = { pinion = 20, wheel = 30 }
+speed = "1500 rpm"
+torque = "100 N m"
+module = "3.5 mm"
+width = "23 mm"
+helix_angle = "15 deg"
+shift = { pinion = 0.1809, wheel = 0.0891 }
+tip_shortening = 0.0091
+Ra = "0.4 um"
+lubricant = "pao_vg_220"
+into = "box"
+"#;
+
+#[test]
+fn the_teeth_of_a_mesh_are_as_printed() {
+    let folder = Folder::with("h501.toml", H501);
+    let json = folder.json("gear h501.toml --speed 1500rpm").exits(0).json();
+    let mesh = &json["meshes"][0];
+    let is = |found: &Value, printed: f64, last: f64| {
+        let found = found.as_f64().or_else(|| found["value"].as_f64()).unwrap();
+        assert!((found - printed).abs() <= last, "{found}, printed {printed}");
+    };
+    is(&mesh["centre_distance"], 0.0915, 1e-6);
+    is(&mesh["pressure_angle"], (34.45_f64 / 91.5).asin(), 2e-4);
+    is(&mesh["transverse_contact_ratio"], 1.46, 0.01);
+    is(&mesh["overlap_ratio"], 0.54, 0.01);
+    is(&mesh["loss_factor"], 0.1639, 1e-3);
+    folder.run(&["gear", "h501.toml"]).exits(0).prints("alpha_w [deg]").prints("H_V");
+}
+
+#[test]
+fn efficiency_is_a_map_over_speed_and_torque() {
+    let folder = Folder::with("h501.toml", H501);
+    let ask = [
+        "gear",
+        "h501.toml",
+        "--speed=100rpm,500rpm,1500rpm,3000rpm",
+        "--torque=10 N \
+        m,50 N m,200 N m",
+        "--temperature=60degC",
+        "--plot=map.svg",
+    ];
+    folder.run(&ask).exits(0);
+    let map = folder.files().into_iter().find(|file| file.contains("svg")).unwrap();
+    let drawn: String =
+        folder.files().iter().filter(|f| f.ends_with(".svg")).map(|f| folder.read(f)).collect();
+    assert!(drawn.contains("torque") && drawn.contains("99 %"), "{map}");
+}

@@ -32,6 +32,7 @@ mod fit_law_folder;
 mod fit_network;
 mod fit_pictures;
 mod fit_step;
+mod foster;
 mod gear;
 mod graph;
 mod heat;

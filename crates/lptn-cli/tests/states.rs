@@ -304,3 +304,24 @@ fn a_saturated_integrator_is_named_with_what_reads_it() {
     folder.write("net.toml", &net(100.0));
     assert!((steady(&folder, "sum") - 60.0).abs() < 1e-6);
 }
+
+/// A body at 60 degC in steady state, 20 degC + 40 W / (1 W/K), and an integral of its temperature.
+fn integral(over: &str) -> String {
+    format!(
+        "format = 1\n[default]\nT0 = \"20 degC\"\n[boundary]\nair = {{ T = \"20 degC\" }}\n[node]\nbody \
+         = {{ C = \"100 J/K\" }}\n[resistor]\nskin = {{ from = \"body\", to = \"air\", G = \"1 W/K\" \
+         }}\n[source]\nheat = {{ into = \"body\", P = \"40 W\" }}\n[state]\ndose = {{ rate = \"1 \
+         [g/(K s)] * (body.T - {over})\", start = \"5 g\" }}\n[run]\nstop = \"10 s\"\n"
+    )
+}
+
+#[test]
+fn an_expansion_keeps_the_unit_of_a_state() {
+    let folder = Folder::with("dose.toml", &integral("50 [degC]"));
+    let flat =
+        folder.run(&["check", "dose.toml", "--expand"]).exits(0).prints("start = \"5 g\"").out;
+    folder.write("flat.toml", &flat);
+    let run = |file: &str| folder.run(&["run", file, "--no-files", "--format=csv"]).exits(0).out;
+    assert_eq!(run("flat.toml"), run("dose.toml"));
+    assert!(run("flat.toml").contains("[g]"));
+}

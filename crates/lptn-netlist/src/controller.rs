@@ -11,14 +11,15 @@
 
 use std::sync::Arc;
 
-use lptn_data::Diagnostic;
-use lptn_units::{Dimension, Expression, Type};
+use lptn_data::{Diagnostic, Span};
+use lptn_units::{Dimension, Type, parse_quantity};
 
 use crate::fields::{Fields, Owner};
 use crate::format::{Role, SectionDeclaration, akin, key, text, words, words_of};
 use crate::names::ValueKind;
-use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
+use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
 use crate::template::Structure;
+use crate::written_out::WrittenOut;
 
 pub(crate) const CONTROLLER: SectionDeclaration = SectionDeclaration {
     name: "controller",
@@ -120,12 +121,9 @@ type Made = Vec<(&'static str, RawEntry)>;
 struct Controller<'r> {
     raw: &'r RawNetlist,
     structure: &'r Structure,
-    entry: &'r RawEntry,
     fields: &'r Fields<'r>,
-    /// Its name where it is written.
-    here: &'r str,
     sense: &'r str,
-    made: Made,
+    out: WrittenOut<'r>,
 }
 
 impl<'r> Controller<'r> {
@@ -137,19 +135,19 @@ impl<'r> Controller<'r> {
         let needed = ["sense", "setpoint", "K_p", "min", "max"];
         let there = needed.map(|key| fields.require(key, problems).is_some());
         let sense = fields.text("sense", fields.get("sense")?, problems)?;
-        let around = structure.instance_at(&entry.key_span);
-        let here = around.and_then(|path| entry.key.strip_prefix(path)?.strip_prefix('.'));
-        let here = here.unwrap_or(&entry.key);
-        let mut new = Self { raw, structure, entry, fields, here, sense, made: Vec::new() };
+        let out = WrittenOut::new((raw, structure), entry);
+        let mut new = Self { raw, structure, fields, sense, out };
         let warms = new.warms(problems)?;
         new.pairs(problems)?;
+        new.numbers(problems)?;
+        new.has_temperature(problems)?;
         if there.contains(&false) {
             return None;
         }
         new.given();
         new.values(warms);
         new.states(problems)?;
-        Some(new.made)
+        Some(new.out.made)
     }
 
     /// True if more output warms.
@@ -183,18 +181,67 @@ impl<'r> Controller<'r> {
         right.then_some(())
     }
 
-    fn put(&mut self, section: &'static str, name: &str, value: RawValue) {
-        let key = match name {
-            "" => self.entry.key.clone(),
-            name => format!("{}.{name}", self.entry.key),
+    /// The number of a key in SI units, if it is written as one.
+    fn number(&self, key: &str) -> Option<(f64, &'r Span)> {
+        let raw = self.fields.get(key)?;
+        let text = match &raw.kind {
+            RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => text,
+            _ => return None,
         };
-        let key_span = self.entry.key_span.clone();
-        self.made.push((section, RawEntry { key, key_span, value }));
+        Some((parse_quantity(text, None).ok()?.value, &raw.span))
     }
 
-    fn text(&mut self, section: &'static str, name: &str, text: String) {
-        let value = RawValue::text(text, &self.entry.key_span);
-        self.put(section, name, value);
+    /// Refuses limits that are exchanged, and gains of 0 that `tracking` divides by.
+    fn numbers(&self, problems: &mut Vec<Diagnostic>) -> Option<()> {
+        let owner = &self.fields.owner;
+        let before = problems.len();
+        if let (Some((min, _)), Some((max, at))) = (self.number("min"), self.number("max"))
+            && min >= max
+        {
+            let message = format!("{} is not above `min`", owner.field("max"));
+            let help = "exchange them: `min` is the least output, `max` the greatest";
+            problems.push(Diagnostic::wrong("netlist::controller_limits", message, at, help));
+        }
+        let gains = [
+            ("K_i", "leave `K_i` out: a controller without it is proportional"),
+            (
+                "K_p",
+                "add the time in which the integral goes back to a limit: `tracking = \"60 s\"`",
+            ),
+        ];
+        let default = self.fields.get("K_i").is_some() && self.fields.get("tracking").is_none();
+        for (key, help) in gains.into_iter().filter(|_| default) {
+            let Some((_, at)) = self.number(key).filter(|(value, _)| *value == 0.0) else {
+                continue;
+            };
+            let message =
+                format!("`{key}` of {} is 0, and `tracking` is `abs(K_p / K_i)`", owner.words());
+            problems.push(Diagnostic::wrong("netlist::controller_tracking", message, at, help));
+        }
+        (problems.len() == before).then_some(())
+    }
+
+    /// Refuses a sensed name that is a value, which has no temperature.
+    fn has_temperature(&self, problems: &mut Vec<Diagnostic>) -> Option<()> {
+        let at = &self.fields.get("sense")?.span;
+        let full = self.structure.resolve(at, self.sense);
+        let is = |kind: &&ValueKind| {
+            self.raw.elements(kind.section()).iter().any(|entry| entry.key == full)
+        };
+        let kinds = [ValueKind::State, ValueKind::Value, ValueKind::Parameter, ValueKind::Signal];
+        let own = self.out.entry.key == full;
+        let Some(word) =
+            kinds.iter().find(is).map(|kind| kind.word()).or(own.then_some("controller"))
+        else {
+            return Some(());
+        };
+        let message = format!(
+            "{} is {word} `{full}`, which has no temperature",
+            self.fields.owner.field("sense")
+        );
+        let help = "name a [node] or a [boundary]: the controller senses its temperature";
+        problems.push(Diagnostic::wrong("netlist::controller_sense", message, at, help));
+        None
     }
 
     /// The keys that are written, each with a name.
@@ -202,46 +249,25 @@ impl<'r> Controller<'r> {
         let fields = self.fields;
         for name in GIVEN {
             if let Some(value) = fields.get(name) {
-                self.put(self.section_of(value), name, value.clone());
+                self.out.given(name, value);
             }
         }
-        let (k_i, h) = (fields.get("K_i").is_some(), self.here);
+        let (k_i, h) = (fields.get("K_i").is_some(), self.out.here);
         if k_i && fields.get("tracking").is_none() {
-            self.text(
+            self.out.text(
                 ValueKind::Parameter.section(),
                 "tracking",
                 format!("abs({h}.K_p / {h}.K_i)"),
             );
         }
         if k_i && fields.get("start").is_none() {
-            self.text(ValueKind::Parameter.section(), "start", format!("0 * {h}.max"));
+            self.out.text(ValueKind::Parameter.section(), "start", format!("0 * {h}.max"));
         }
-    }
-
-    /// A constant is a parameter, a function of time a signal, anything else a named value.
-    fn section_of(&self, value: &RawValue) -> &'static str {
-        let RawKind::String { text, .. } = &value.kind else {
-            return ValueKind::Parameter.section();
-        };
-        let Ok(expression) = Expression::parse(text) else { return ValueKind::Parameter.section() };
-        let is = |section: &str, name: &str| {
-            let full = self.structure.resolve(&value.span, name);
-            self.raw.elements(section).iter().any(|entry| entry.key == full)
-        };
-        let names: Vec<String> = expression.names().into_iter().map(|(name, _)| name).collect();
-        let constant = |name: &String| name == "pi" || is(ValueKind::Parameter.section(), name);
-        let timed = |name: &String| name == "t" || is(ValueKind::Signal.section(), name);
-        let kind = match () {
-            () if names.iter().all(constant) => ValueKind::Parameter,
-            () if names.iter().all(|name| constant(name) || timed(name)) => ValueKind::Signal,
-            () => ValueKind::Value,
-        };
-        kind.section()
     }
 
     /// The error, the output before its limits, and the output.
     fn values(&mut self, warms: bool) {
-        let (h, sense, value) = (self.here, self.sense, ValueKind::Value.section());
+        let (h, sense, value) = (self.out.here, self.sense, ValueKind::Value.section());
         let error = match warms {
             true => format!("{h}.setpoint - {sense}.T"),
             false => format!("{sense}.T - {h}.setpoint"),
@@ -254,39 +280,32 @@ impl<'r> Controller<'r> {
             let sign = if warms { '-' } else { '+' };
             demand += &format!(" {sign} {h}.K_d * ({sense}.T - {h}.felt) / {h}.lag");
         }
-        self.text(value, "error", error);
-        self.text(value, "demand", demand);
-        self.text(value, "", format!("min(max({h}.demand, {h}.min), {h}.max)"));
+        self.out.text(value, "error", error);
+        self.out.text(value, "demand", demand);
+        self.out.text(value, "", format!("min(max({h}.demand, {h}.min), {h}.max)"));
     }
 
     fn states(&mut self, problems: &mut Vec<Diagnostic>) -> Option<()> {
-        let (h, sense) = (self.here, self.sense);
+        let (h, sense) = (self.out.here, self.sense);
         if self.fields.get("K_i").is_some() {
             let rate = format!("{h}.K_i * {h}.error + ({h} - {h}.demand) / {h}.tracking");
-            let state = self.state(&[
+            let state = self.out.table(&[
                 ("rate", rate),
                 ("start", format!("{h}.start")),
                 ("size", format!("{h}.max - {h}.min")),
             ]);
-            self.put(ValueKind::State.section(), "integral", state);
+            self.out.put(ValueKind::State.section(), "integral", state);
         }
         if self.fields.get("K_d").is_some() {
             let start = self.sensed_start(problems)?;
-            let mut state = self.state(&[("rate", format!("({sense}.T - {h}.felt) / {h}.lag"))]);
+            let mut state =
+                self.out.table(&[("rate", format!("({sense}.T - {h}.felt) / {h}.lag"))]);
             if let RawKind::Table(table) = &mut state.kind {
                 table.entries.push(RawEntry::new("start", start));
             }
-            self.put(ValueKind::State.section(), "felt", state);
+            self.out.put(ValueKind::State.section(), "felt", state);
         }
         Some(())
-    }
-
-    fn state(&self, keys: &[(&str, String)]) -> RawValue {
-        let at = &self.entry.key_span;
-        let entry =
-            |(key, text): &(&str, String)| RawEntry::new(key, RawValue::text(text.clone(), at));
-        let entries = keys.iter().map(entry).collect();
-        RawValue { span: at.clone(), kind: RawKind::Table(RawTable { span: at.clone(), entries }) }
     }
 
     /// `T0` of the sensed node, where its derivative begins.

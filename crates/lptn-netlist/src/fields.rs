@@ -195,6 +195,22 @@ impl<'a> Fields<'a> {
         wrong_shape(&self.owner.field(key), value, wanted, &self.sample(key))
     }
 
+    /// The value of a key that is `true` or `false`, if given.
+    pub(crate) fn yes_or_no(
+        &self,
+        key: &str,
+        problems: &mut Vec<Diagnostic>,
+    ) -> Option<Option<bool>> {
+        match self.get(key).map(|raw| (raw, &raw.kind)) {
+            None => Some(None),
+            Some((_, RawKind::Boolean(answer))) => Some(Some(*answer)),
+            Some((raw, _)) => {
+                problems.push(self.wrong_shape(key, raw, "`true` or `false`"));
+                None
+            }
+        }
+    }
+
     /// Error for several keys that exclude each other: each one that is given has a label.
     pub(crate) fn several<'k>(
         &self,

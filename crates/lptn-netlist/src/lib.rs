@@ -51,6 +51,7 @@ mod grid_names;
 mod grid_part;
 mod habit;
 mod head;
+mod hydraulic;
 mod import;
 mod imported;
 mod include;
@@ -101,6 +102,7 @@ mod value;
 mod value_help;
 mod work;
 mod write_back;
+mod written_out;
 
 pub use believe::Taken;
 pub use case::CaseStudy;

@@ -257,10 +257,18 @@ impl Names {
         unused.filter_map(|name| {
             let (kind, span, _) = self.values.get(name)?;
             // a state is a result by itself
-            (*kind != ValueKind::State).then_some(())?;
+            // so is the flow of a branch in another unit
+            (*kind != ValueKind::State && !is_branch_result(name)).then_some(())?;
             Some((*kind, name.as_str(), span))
         })
     }
+}
+
+/// Results of a branch besides its mass flow: values that may stay unused.
+const BRANCH_RESULTS: [&str; 3] = ["volume_flow", "Re", "power"];
+
+fn is_branch_result(name: &str) -> bool {
+    name.rsplit_once('.').is_some_and(|(_, key)| BRANCH_RESULTS.contains(&key))
 }
 
 /// The element of a result: `steel` of `steel.T`.

@@ -13,7 +13,6 @@ use lptn_network::{Network, Parameters, RunSettings, Value};
 use lptn_units::Unit;
 
 use crate::assumed;
-use crate::controller;
 use crate::csv_files::CsvFiles;
 use crate::elaborate::{Elaborated, elaborate};
 use crate::foreign;
@@ -37,6 +36,7 @@ use crate::syntax_error::NOT_CLOSED;
 use crate::template::{self, Expanded, Structure};
 use crate::uncertainty::{self, UncertaintyPlan};
 use crate::unlikely;
+use crate::{controller, hydraulic};
 
 /// A network as a netlist describes it, with the way back to the text.
 #[derive(Clone, Debug)]
@@ -232,7 +232,7 @@ fn whole(name: &str, text: &str, loader: Option<&mut Loader<'_>>) -> Result<Netl
         return included(files, raw, (Path::new(name), file), loader);
     }
     // errors of templates may follow from the broken line
-    let (Expanded { raw, structure, .. }, WrittenOut { gears, pipes, .. }) =
+    let (Expanded { raw, structure, .. }, ShortForms { gears, pipes, .. }) =
         written_out(&mut files, raw);
     let written = (&structure, &gears, &pipes[..]);
     let (_, found) = elaborate(&raw, written, &CsvFiles::default(), None);
@@ -241,21 +241,23 @@ fn whole(name: &str, text: &str, loader: Option<&mut Loader<'_>>) -> Result<Netl
 }
 
 /// Parts of a text that were written out as elements.
-struct WrittenOut {
+struct ShortForms {
     gears: Gears,
     chains: Vec<Chain>,
     pipes: Vec<RawEntry>,
 }
 
-/// Every template, gearbox, controller, chain and pipe as elements.
-fn written_out(files: &mut Files, raw: RawNetlist) -> (Expanded, WrittenOut) {
+/// Every template, gearbox, flow network, controller, chain and pipe as elements.
+fn written_out(files: &mut Files, raw: RawNetlist) -> (Expanded, ShortForms) {
     let mut expanded = template::expand(files, raw, section::format());
     let Expanded { raw, structure, problems } = &mut expanded;
     let mut gears = gearbox::expand(raw, structure, problems);
+    gears.types.extend(hydraulic::expand(raw, structure, problems));
     gears.types.extend(controller::expand(raw, structure, problems));
-    let chains = foster::expand(raw, structure, problems);
+    let (chains, types) = foster::expand(raw, structure, problems);
+    gears.types.extend(types);
     let pipes = pipe::expand(raw, structure);
-    (expanded, WrittenOut { gears, chains, pipes })
+    (expanded, ShortForms { gears, chains, pipes })
 }
 
 /// The rest of the way for a text that is TOML.
@@ -270,7 +272,7 @@ fn included(
     if incomplete {
         return Err(Rejected { syntax, ..Rejected::arranged(files, diagnostics, 0) });
     }
-    let (Expanded { raw, structure, problems }, WrittenOut { gears, chains, pipes }) =
+    let (Expanded { raw, structure, problems }, ShortForms { gears, chains, pipes }) =
         written_out(&mut files, raw);
     diagnostics.extend(problems);
     let initial = raw.section(RUN.name).and_then(|run| run.get("initial"));

@@ -128,14 +128,7 @@ impl<'a> Elaboration<'a> {
 
     /// The value of a key that is `true` or `false`, if given.
     pub(crate) fn yes_or_no(&mut self, fields: &Fields<'_>, key: &str) -> Option<Option<bool>> {
-        match fields.get(key).map(|raw| (raw, &raw.kind)) {
-            None => Some(None),
-            Some((_, RawKind::Boolean(answer))) => Some(Some(*answer)),
-            Some((raw, _)) => {
-                self.report(fields.wrong_shape(key, raw, "`true` or `false`"));
-                None
-            }
-        }
+        fields.yes_or_no(key, &mut self.problems)
     }
 
     /// One of several words; default: the first.

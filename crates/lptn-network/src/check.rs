@@ -49,7 +49,8 @@ fn islands(parts: &Parts, stores: &[bool], errors: &mut Vec<BuildError>) {
     let mut tied = vec![false; parts.nodes.len()];
     for (i, &stores) in stores.iter().enumerate() {
         // a node that wrongly has no capacity is reported as that, not as an island
-        tied[islands.root(i)] |= stores || !parts.nodes[i].massless;
+        let is_state = parts.state_at(NodeId::from_len(i)).is_some();
+        tied[islands.root(i)] |= stores || is_state || !parts.nodes[i].massless;
     }
     for node in islands.grounded(parts) {
         tied[islands.root(node)] = true;

@@ -138,7 +138,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     /// A state without a rate.
     NoRate { state: StateId } = "network::no_rate",
         at Some((Item::State(*state), Field::Rate)),
-        says format!("{} has no rate of change", say.item(Item::State(*state))),
+        says format!("{} has neither rate of change nor balance", say.item(Item::State(*state))),
         help text("give it `rate`, in its unit per second");
     /// The threshold at which a control switches on lies beyond that at which it switches off, or
     /// both are one.

@@ -236,6 +236,8 @@ pub enum Field {
     Start,
     /// Rate of change of a state.
     Rate,
+    /// Expression whose zero determines a state.
+    Balance,
     /// Least value of a state.
     Least,
     /// Greatest value of a state.
@@ -353,6 +355,7 @@ impl Field {
             Self::CharacteristicLength => "L_char",
             Self::Start => "start",
             Self::Rate => "rate",
+            Self::Balance => "balance",
             Self::Least => "min",
             Self::Most => "max",
             Self::UsualSize => "size",

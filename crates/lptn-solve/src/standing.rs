@@ -43,7 +43,7 @@ pub(crate) fn free(
         if is_counter(system, unknown) {
             continue;
         }
-        match state.filter(|_| !reads[unknown]) {
+        match state.filter(|state| !state.balanced && !reads[unknown]) {
             None => free.push(unknown),
             Some(state) => at_rest(state, flow[unknown])?,
         }

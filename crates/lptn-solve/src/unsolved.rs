@@ -38,6 +38,11 @@ pub enum Unsolved {
                  `{reader}` remains saturated"
             ),
         };
+    /// Nothing determines a state that has a balance: the balance does not change with it.
+    UndeterminedState { state: String } = "solve::undetermined_state",
+        format!("nothing determines `{state}`: its balance does not change with it"),
+        help "a junction needs an open branch whose flow depends on its pressure, to a junction with \
+            a known pressure; the `balance` of a [state] has to fall while the state rises";
     /// The numbers could not be factorised.
     Factorization(error: FactorError) = "solve::singular",
         format!("the balances cannot be factorised: {error}"),
@@ -119,8 +124,14 @@ impl Unsolved {
             let id = system.unknowns().get(unknown);
             id.map_or(String::new(), |id| system.network().nodes()[id.index()].name.clone())
         };
+        let is_state = |unknown: usize| {
+            system.unknowns().get(unknown).is_some_and(|id| !system.network().is_thermal(*id))
+        };
         match error {
             NewtonError::Input(error) => Self::Input(Box::new(error)),
+            NewtonError::Singular { unknown } if is_state(unknown) => {
+                Self::UndeterminedState { state: name(unknown) }
+            }
             NewtonError::Singular { unknown } => {
                 Self::Undetermined { node: name(unknown), reader: reader(system, unknown) }
             }
@@ -142,6 +153,7 @@ impl Unsolved {
             Self::Input(error) => &error.name,
             Self::Factorization(_) | Self::Restless { .. } => "",
             Self::Undetermined { node, .. }
+            | Self::UndeterminedState { state: node }
             | Self::Unstable { node, .. }
             | Self::Fold { node }
             | Self::Pipe { node }

@@ -1,7 +1,7 @@
 //! A train of gears at a speed and torque: speeds, torques, powers, and losses.
 
 use lptn_assembly::{AssemblyError, ThermalSystem};
-use lptn_laws::Group;
+use lptn_laws::{Engagement, GearPair, Group};
 use lptn_netlist::{Gearbox, Member};
 use lptn_network::{BuildErrors, Evaluation, InputError, Item, Network, SignalId, SourceId};
 use lptn_solve::SteadyError;
@@ -81,6 +81,29 @@ pub struct PartLoss {
     pub followed: Option<f64>,
     /// Groups of its law outside their range, with their values.
     pub outside: Vec<(&'static Group, f64)>,
+}
+
+/// A mesh of a train: its teeth.
+#[derive(Clone, Debug)]
+pub struct MeshTeeth {
+    /// The part, without the index of a planet.
+    pub name: String,
+    /// The two gears.
+    pub pair: GearPair<f64>,
+    /// Working centre distance, pressure angle and contact.
+    pub at: Engagement,
+}
+
+impl MeshTeeth {
+    /// Transverse contact ratio `epsilon_alpha`.
+    pub fn contact_ratio(&self) -> f64 {
+        self.at.contact[0] + self.at.contact[1]
+    }
+
+    /// Factor of gear loss `H_V`.
+    pub fn loss_factor(&self) -> f64 {
+        self.pair.loss_factor()
+    }
 }
 
 lptn_units::errors! {
@@ -230,6 +253,23 @@ impl<'a> GearTask<'a> {
             });
             (part.name.as_str(), ids.collect())
         })
+    }
+
+    /// The teeth of every mesh, at the values of the network.
+    pub fn meshes(&self) -> Vec<MeshTeeth> {
+        let network = self.network;
+        let mut scope = self.scope(network);
+        let mut mesh = |(name, elements): (&str, Vec<SourceId>)| {
+            let law = network.law(Item::Source(*elements.first()?))?;
+            let mut number = |value| {
+                let constant = network.is_constant(value).then(|| value.at(&mut scope).ok());
+                constant.flatten().unwrap_or(f64::NAN)
+            };
+            let values: Vec<f64> = law.values().iter().map(&mut number).collect();
+            let pair = law.formula().gears(&values)?;
+            Some(MeshTeeth { name: name.to_owned(), pair, at: pair.engagement() })
+        };
+        self.parts().filter_map(&mut mesh).collect()
     }
 
     fn heats(&self, network: &Network, vertices: &[f64]) -> Result<Vec<f64>, GearError> {

@@ -28,7 +28,7 @@ pub use compare::{
     Scatter, Settled, Share, SortKey, compare_table, order,
 };
 pub use digest::{Hashing, sha256};
-pub use gears::{GearError, GearPoint, GearState, GearTask, MemberState, PartLoss};
+pub use gears::{GearError, GearPoint, GearState, GearTask, MemberState, MeshTeeth, PartLoss};
 pub use manifest::{Environment, FileHash, Manifest, ParameterRecord, RunEnd, Sundials};
 pub use moment::utc;
 pub use rank::{RankError, Ranking, effect};

@@ -75,7 +75,7 @@ made_of! {
     lptn_analysis::SimulationError, lptn_answer::failure::Failure,
     lptn_assembly::AssemblyError, lptn_assembly::ChangeError,
     lptn_fit::choice::ChoiceError, lptn_fit::infer::InferError, lptn_fit::law::LawError, lptn_fit::law::RunsError, lptn_fit::least_squares::LeastSquaresError,
-    lptn_fit::network::design::DesignError, lptn_fit::network::NetworkFitError, lptn_fit::step::StepError,
+    lptn_fit::network::design::DesignError, lptn_fit::network::NetworkFitError, lptn_fit::step::StepError, lptn_fit::step::TermsError,
     lptn_netlist::ReadError, lptn_netlist::Rejected, lptn_netlist::WrittenError,
     lptn_network::BuildError, lptn_network::BuildErrors, lptn_network::InputError,
     lptn_network::LadderError, lptn_network::NoTangents, lptn_network::ParameterError, lptn_network::UnknownName,

@@ -49,6 +49,7 @@ pub use lptn_answer::{
     fit::law::{FitLawAnswer, FitLawQuestion, FitRunsAnswer, StatedLawsAnswer, StatedLawsQuestion},
     fit::network::{FitNetworkAnswer, FitNetworkQuestion},
     fit::step::{FitStepAnswer, FitStepQuestion},
+    fit::terms::{FitTermsAnswer, FitTermsQuestion},
     gear::{GearAnswer, GearQuestion},
     graph::{GraphAnswer, GraphQuestion},
     impedance::{ImpedanceAnswer, ImpedanceQuestion},

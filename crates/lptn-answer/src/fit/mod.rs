@@ -5,6 +5,7 @@ mod figure;
 pub mod law;
 pub mod network;
 pub mod step;
+pub mod terms;
 
 #[cfg(test)]
 mod tests {

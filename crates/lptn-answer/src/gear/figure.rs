@@ -11,10 +11,10 @@ use lptn_study::GearState;
 const MOST: usize = 8;
 
 impl GearAnswer {
-    /// A figure for each load and state of the oil that has several speeds.
+    /// The map of efficiency if there are several torques, and a figure for each load and state of the oil that has several speeds.
     pub(super) fn drawn(&self) -> Vec<Figure> {
         let blocks = self.blocks.iter().filter(|block| block.states.len() > 1);
-        blocks.map(|block| self.figure(block)).collect()
+        self.maps().into_iter().chain(blocks.map(|block| self.figure(block))).collect()
     }
 
     fn figure(&self, block: &Block) -> Figure {

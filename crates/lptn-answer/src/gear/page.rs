@@ -5,7 +5,7 @@ use std::io;
 use lptn_netlist::{Arrangement, Gearbox, Member};
 use lptn_plot::Figure;
 use lptn_report::{Json, Page, Report, Rows, Shortest, Text, significant};
-use lptn_study::{GearState, MemberState, PartLoss, SiValue};
+use lptn_study::{GearState, MemberState, MeshTeeth, PartLoss, SiValue};
 use serde_json::{Value, json};
 
 use super::tables::{of_all, rpm, warmest};
@@ -156,6 +156,18 @@ impl GearAnswer {
     }
 }
 
+/// A mesh as JSON.
+fn teeth(mesh: &MeshTeeth) -> Value {
+    json!({
+        "name": mesh.name,
+        "centre_distance": SiValue::new(mesh.at.distance, "m"),
+        "pressure_angle": SiValue::new(mesh.at.angle, "rad"),
+        "transverse_contact_ratio": mesh.contact_ratio(),
+        "overlap_ratio": mesh.at.overlap,
+        "loss_factor": mesh.loss_factor(),
+    })
+}
+
 impl Page for GearAnswer {
     fn text(&self) -> Text {
         let mut text = self.input.begun();
@@ -166,6 +178,9 @@ impl Page for GearAnswer {
         // members turn in proportion: the last point shows them at their own speed
         if let Some((_, _, state)) = self.states().last() {
             text.section().table(self.members(state));
+        }
+        if let Some(teeth) = self.teeth() {
+            text.section().table(teeth);
         }
         for block in &self.blocks {
             text.section().line(self.said(block));
@@ -207,6 +222,8 @@ impl Page for GearAnswer {
         json.optional("out_of_range", ranges::members(&netlist.network, &outside, false))?;
         json.member("gearbox", &self.task().stages[0].name)?;
         json.member("ratio", &self.ratio())?;
+        let meshes = self.task().meshes();
+        json.member("meshes", &meshes.iter().map(teeth).collect::<Vec<_>>())?;
         let points = self.states().map(|(block, speed, state)| self.point(block, speed, state));
         json.member("points", &points.collect::<Vec<_>>())
     }

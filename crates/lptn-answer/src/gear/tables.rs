@@ -59,6 +59,23 @@ impl GearAnswer {
         table.left("", |m| role(m.stage, m.member)).into()
     }
 
+    /// Teeth of every mesh at its working centre distance; `None` without meshes.
+    pub(super) fn teeth(&self) -> Option<TextTable> {
+        let meshes = self.task().meshes();
+        let or_dash = |value: f64, decimals: usize| match value.is_finite() {
+            true => fixed(value, decimals),
+            false => "-".to_owned(),
+        };
+        let table = TextTable::of(&meshes)
+            .left("mesh", |mesh| mesh.name.as_str())
+            .right("a [mm]", |mesh| or_dash(1e3 * mesh.at.distance, 3))
+            .right("alpha_w [deg]", |mesh| or_dash(mesh.at.angle.to_degrees(), 3))
+            .right("eps_alpha", |mesh| or_dash(mesh.contact_ratio(), 3))
+            .right("eps_beta", |mesh| or_dash(mesh.at.overlap, 3))
+            .right("H_V", |mesh| or_dash(mesh.loss_factor(), 4));
+        (!meshes.is_empty()).then(|| table.into())
+    }
+
     /// Tables over the speeds of a block, [`ACROSS`] in each: heats, and both exponents.
     pub(super) fn over_speed(&self, block: &Block) -> Vec<TextTable> {
         let mut tables = Vec::new();

@@ -15,6 +15,7 @@ mod posterior;
 mod power;
 mod saturation;
 mod second;
+mod terms;
 
 use lptn_reduce::fit_exponential;
 use lptn_units::statistics::student_95;
@@ -26,6 +27,9 @@ pub use bias::{FittedValue, ModelBias};
 pub use error::{Lack, StepError};
 pub use power::{Capacity, Parted, Power, ReferenceTemperature, Sensor};
 pub use second::{LikelihoodRatioTest, TwoExponentials};
+pub use terms::{
+    ExponentialSum, MOST_TERMS, PositiveEstimate, StepCurve, TermEstimate, TermsError, TermsTried,
+};
 
 /// A record shorter than this many time constants extrapolates.
 pub const LONG_ENOUGH: f64 = 3.0;

@@ -1,7 +1,7 @@
 //! `[state]` and `[value]`.
 
-use lptn_network::State;
-use lptn_units::{Dimension, Type};
+use lptn_network::{State, Value};
+use lptn_units::{Dimension, Type, Unit, parse_quantity};
 
 use super::Writer;
 use crate::toml_text::{TomlFields, like, string};
@@ -21,14 +21,19 @@ impl Writer<'_> {
         let per_second = state.ty.dimension.checked_div(Dimension::TIME).map_or(state.ty, Type::of);
         let source = state.source.map(|id| &self.network.sources()[id.index()]);
         let rate = source.and_then(|source| source.power());
-        rate.into_iter().for_each(|rate| fields.put("rate", like(rate, per_second)));
+        let key = state.law().key();
+        rate.into_iter().for_each(|rate| fields.put(key, like(rate, per_second)));
         let values =
             [("start", &state.start), ("min", &state.bounds[0]), ("max", &state.bounds[1])];
         for (key, given) in values {
-            given.iter().for_each(|given| fields.put(key, like(given, state.ty)));
+            let shown = state.unit.as_ref().filter(|_| key == "start");
+            let text = |given: &Value| shown.and_then(|unit| in_unit(given, unit));
+            given.iter().for_each(|given| {
+                fields.put(key, text(given).unwrap_or_else(|| like(given, state.ty)));
+            });
         }
         if !state.ty.is_temperature() {
-            let size = lptn_network::Value::Constant(state.size());
+            let size = Value::Constant(state.size());
             fields.put("size", like(&size, Type::of(state.ty.dimension)));
         }
         fields.inline()
@@ -41,4 +46,12 @@ impl Writer<'_> {
         }
         self.section("value", &section);
     }
+}
+
+/// A constant in the unit in which a state is shown, if that gives back the same number.
+fn in_unit(value: &Value, unit: &Unit) -> Option<String> {
+    let Value::Constant(si) = value else { return None };
+    let text = format!("{} {}", unit.from_si(*si), unit.text);
+    let back = parse_quantity(&text, Some(unit.ty)).ok()?.value;
+    (back.to_bits() == si.to_bits()).then(|| string(&text))
 }

@@ -15,7 +15,7 @@ pub(crate) fn check(chains: &[Chain], network: &Network, map: &SourceMap) -> Vec
 impl Chain {
     /// Error if it does not end at a boundary: the parts after it would change its time constants.
     fn series(&self, network: &Network, map: &SourceMap) -> Option<Diagnostic> {
-        let last = self.resistors.last()?;
+        let last = self.resistors.last().filter(|_| !self.series)?;
         let Ok(Item::Conductor(id)) = network.item(last) else { return None };
         let End::Node(node) = network.conductors()[id.index()].to else { return None };
         let name = &network.nodes()[node.index()].name;
@@ -23,9 +23,8 @@ impl Chain {
         let problem = Diagnostic::error("netlist::foster_series", message);
         let problem = problem.at(map.get(Item::Conductor(id), Field::To), "not a boundary");
         Some(problem.help(
-            "an R-tau table is valid against a boundary only; a ladder of the same impedance may \
-             be joined to more: `lptn impedance table.toml --port chip --cauer --write \
-             ladder.toml`",
+            "an R-tau table is valid against a boundary only: with `series = true` a ladder of the \
+             same impedance stands for the body, exact in steady state and an estimate before",
         ))
     }
 

@@ -2,19 +2,22 @@
 //! out as a ladder of nodes and resistors before anything is read.
 
 mod check;
+mod parameters;
 mod read;
 
 use lptn_data::{Diagnostic, Span};
 use lptn_laws::Kind;
-use lptn_units::Dimension;
+use lptn_units::{Dimension, Type};
 
 pub(crate) use check::check;
 
-use crate::format::{ABSOLUTE, Role, SectionDeclaration, Takes, key, shaped, text};
+use crate::format::{ABSOLUTE, Role, SectionDeclaration, Takes, flag, key, shaped, text};
+use crate::names::ValueKind;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::section::NODE;
 use crate::template::Structure;
-use read::Read;
+use parameters::Written;
+use read::{Read, Terms};
 
 /// `[foster]`, as netlists declare it.
 pub(crate) const FOSTER: SectionDeclaration = SectionDeclaration {
@@ -22,11 +25,16 @@ pub(crate) const FOSTER: SectionDeclaration = SectionDeclaration {
     sentence: "A node with the thermal impedance of an R-tau table to a boundary.",
     role: Role::Element,
     keys: &[
-        text("to", "name of a boundary", "the reference of the measured impedance", "\"case\"")
-            .needed(),
+        text(
+            "to",
+            "name of a boundary or node",
+            "the reference of the measured impedance",
+            "\"case\"",
+        )
+        .needed(),
         shaped(
             "R",
-            "list of K/W",
+            "list of K/W or expressions",
             Takes::list(&Takes::Quantity("K/W")),
             "the resistances of the table",
             "[\"20 mK/W\", \"0.1 K/W\"]",
@@ -34,13 +42,15 @@ pub(crate) const FOSTER: SectionDeclaration = SectionDeclaration {
         .needed(),
         shaped(
             "tau",
-            "list of s",
+            "list of s or expressions",
             Takes::list(&Takes::Quantity("s")),
             "their time constants",
             "[\"1 ms\", \"80 ms\"]",
         )
         .needed(),
         key("T0", ABSOLUTE, "temperature at the start", "\"25 degC\"").or("`T0` of `[default]`"),
+        flag("series", "`to` may be a node: the ladder is an estimate of the body", "true")
+            .or("false"),
     ],
     example: "{ to = \"case\", R = [\"20 mK/W\", \"0.1 K/W\"], tau = [\"1 ms\", \"80 ms\"] }",
     elsewhere: &[
@@ -59,20 +69,42 @@ pub(crate) struct Chain {
     /// Its nodes, the port first.
     nodes: Vec<String>,
     resistors: Vec<String>,
+    /// True if it may end at a node.
+    series: bool,
 }
 
-/// Replaces every chain by nodes and resistors.
+/// Replaces every chain by nodes and resistors; the types that some parameters have to have.
 pub(crate) fn expand(
     raw: &mut RawNetlist,
     structure: &Structure,
     problems: &mut Vec<Diagnostic>,
-) -> Vec<Chain> {
-    let mut chains = Vec::new();
+) -> (Vec<Chain>, Vec<(String, Type)>) {
+    let (mut chains, mut types) = (Vec::new(), Vec::new());
     for entry in raw.take(FOSTER.name) {
         let read = Read::of(&entry, problems);
-        chains.extend(Chain::written_out(raw, &entry, &read, structure));
+        let around = structure.instance_at(&entry.key_span);
+        let around = around.map_or(String::new(), |path| format!("{path}."));
+        // the name next to the block
+        let here = entry.key.strip_prefix(&around).unwrap_or(&entry.key).to_owned();
+        let rungs = match &read.terms {
+            Terms::Rungs(rungs) => rungs.iter().map(numbers).collect(),
+            Terms::Expressions(terms) => {
+                let written = Written::of((&entry.key, &here), terms, &entry.key_span);
+                let section = ValueKind::Parameter.section();
+                written.parameters.into_iter().for_each(|entry| raw.push(section, entry));
+                types.extend(written.types);
+                written.rungs
+            }
+        };
+        chains.extend(Chain::written_out(raw, &entry, &read, (&around, &here, &rungs)));
     }
-    chains
+    (chains, types)
+}
+
+/// The texts of a rung.
+fn numbers((capacity, resistance): &(f64, f64)) -> (String, String) {
+    let text = |value: &f64, of: Dimension| format!("{value} {}", of.si_unit());
+    (text(capacity, Dimension::CAPACITY), text(resistance, Dimension::RESISTANCE))
 }
 
 impl Chain {
@@ -81,16 +113,14 @@ impl Chain {
         raw: &mut RawNetlist,
         entry: &RawEntry,
         read: &Read<'_>,
-        structure: &Structure,
+        (around, here, rungs): (&str, &str, &[(String, String)]),
     ) -> Option<Self> {
-        let (at, rungs) = (&entry.key_span, &read.rungs);
-        let around = structure.instance_at(at).map_or(String::new(), |path| format!("{path}."));
-        // the name of a rung next to the block
-        let here = entry.key.strip_prefix(&around).unwrap_or(&entry.key);
+        let at = &entry.key_span;
         let node = |k: usize| if k == 0 { here.to_owned() } else { format!("{here}.n{}", k + 1) };
-        let mut chain = Self { name: entry.key.clone(), nodes: Vec::new(), resistors: Vec::new() };
-        for (k, &(capacity, resistance)) in rungs.iter().enumerate() {
-            let mut fields = vec![given("C", capacity, Dimension::CAPACITY, at)];
+        let (nodes, resistors) = (Vec::new(), Vec::new());
+        let mut chain = Self { name: entry.key.clone(), nodes, resistors, series: read.series };
+        for (k, (capacity, resistance)) in rungs.iter().enumerate() {
+            let mut fields = vec![given("C", capacity, at)];
             fields.extend(read.initial.cloned());
             chain.nodes.push(format!("{around}{}", node(k)));
             raw.push(NODE.name, element(&chain.nodes[k], fields, at));
@@ -99,7 +129,7 @@ impl Chain {
             let fields = vec![
                 RawEntry::new("from", RawValue::text(node(k), at)),
                 RawEntry::new("to", to),
-                given("R", resistance, Dimension::RESISTANCE, at),
+                given("R", resistance, at),
             ];
             chain.resistors.push(format!("{}.R{}", entry.key, k + 1));
             raw.push(
@@ -111,9 +141,9 @@ impl Chain {
     }
 }
 
-/// A field with a number in SI units.
-fn given(key: &str, value: f64, dimension: Dimension, at: &Span) -> RawEntry {
-    RawEntry::new(key, RawValue::text(format!("{value} {}", dimension.si_unit()), at))
+/// A field with a generated text.
+fn given(key: &str, text: &str, at: &Span) -> RawEntry {
+    RawEntry::new(key, RawValue::text(text.to_owned(), at))
 }
 
 fn element(name: &str, fields: Vec<RawEntry>, at: &Span) -> RawEntry {

@@ -27,6 +27,7 @@ use crate::fit::FitStudy;
 use crate::format::{NetlistFormat, SectionDeclaration};
 use crate::foster::FOSTER;
 use crate::gearbox::GEARBOX;
+use crate::hydraulic::{BRANCH, JUNCTION};
 use crate::import::IMPORT;
 use crate::infer::InferStudy;
 use crate::parameters::PARAM;
@@ -48,8 +49,10 @@ static BEFORE: [&SectionDeclaration; 14] = [
     &PARAM, &TABLE, &SIGNAL, &DEFAULT, &MATERIAL, &FLUID, &LUBRICANT, &FAN, &NODE, &GRID,
     &CAPACITOR, &BOUNDARY, &FOSTER, &PIPE,
 ];
-static BEHIND: [&SectionDeclaration; 11] = [
+static BEHIND: [&SectionDeclaration; 13] = [
     &GEARBOX,
+    &JUNCTION,
+    &BRANCH,
     &CONTROL,
     &CONTROLLER,
     &STATE,

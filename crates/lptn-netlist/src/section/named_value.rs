@@ -4,12 +4,12 @@ use lptn_data::Diagnostic;
 use lptn_network::{Context, Field, Item};
 use lptn_units::Expression;
 
-use crate::controller::INNER;
 use crate::format::{Role, SectionDeclaration};
 use crate::names::ValueKind;
 use crate::parameters::Pending;
 use crate::place::{Place, Text, Wanted};
 use crate::work::Elaboration;
+use crate::{controller, hydraulic};
 
 pub(crate) const VALUE: SectionDeclaration = SectionDeclaration {
     name: ValueKind::Value.section(),
@@ -30,9 +30,12 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// True but for the inner values of a controller.
+    /// True but for the inner values of a controller or branch.
     fn is_shown(&self, name: &str) -> bool {
-        let of = INNER.iter().find_map(|inner| name.strip_suffix(inner)?.strip_suffix('.'));
+        let of = controller::INNER
+            .iter()
+            .chain(&hydraulic::INNER)
+            .find_map(|inner| name.strip_suffix(inner)?.strip_suffix('.'));
         of.is_none_or(|of| self.names.value_kind(of) != Some(ValueKind::Value))
     }
 

@@ -15,7 +15,13 @@ pub(crate) const STATE: SectionDeclaration = SectionDeclaration {
     sentence: "A value of any unit with a given rate: an integral, a state of charge, fuel.",
     role: Role::Value,
     keys: &[
-        akin("rate", "quantity or expression", "its change per second", "\"-0.2 g/s\"").needed(),
+        akin("rate", "quantity or expression", "its change per second", "\"-0.2 g/s\""),
+        akin(
+            "balance",
+            "expression",
+            "instead of `rate`: the sum that is zero at all times, and falls while the state rises",
+            "\"inflow - p / R\"",
+        ),
         akin("start", "quantity or expression", "its value at the start", "\"500 g\"").needed(),
         akin("min", "quantity or expression", "its least value, where it stops", "\"0 g\""),
         akin("max", "quantity or expression", "its greatest value, where it stops", "\"500 g\""),
@@ -27,12 +33,14 @@ pub(crate) const STATE: SectionDeclaration = SectionDeclaration {
         )
         .or("`max - min`, else the size of `start`"),
     ],
+    either: &[&["rate", "balance"]],
     example: "{ rate = \"-0.2 g/s\", start = \"500 g\", min = \"0 g\" }",
     elsewhere: &[
         ("initial", "the value at the start is `start`"),
         ("value", "the value at the start is `start`"),
         ("unit", "the unit follows from `start`: `start = \"0 kg\"`"),
         ("der", "the change per second is `rate`"),
+        ("zero", "the sum that is zero is `balance`"),
         ("lower", "the least value is `min`"),
         ("upper", "the greatest value is `max`"),
         ("scale", "the size of a usual change is `size`"),
@@ -76,14 +84,33 @@ impl<'a> Elaboration<'a> {
         let most = self.bound_of_state(&fields, "max", ty);
         let size = self.usual_size(&fields, ty, (&given, &least, &most));
         let (least, most, size) = (least?, most?, size?);
-        let id = self.builder.state(&entry.key, ty, size);
+        let id = match self.is_balanced(&fields) {
+            true => self.builder.balanced_state(&entry.key, ty, size),
+            false => self.builder.state(&entry.key, ty, size),
+        };
         shown_in(raw).into_iter().for_each(|unit| self.builder.show_state_in(id, unit));
-        let own = [Field::Start, Field::Rate, Field::Least, Field::Most, Field::UsualSize];
+        let own = [
+            Field::Start,
+            Field::Rate,
+            Field::Balance,
+            Field::Least,
+            Field::Most,
+            Field::UsualSize,
+        ];
         self.note(Item::State(id), &entry.key_span, &fields, &own);
         let node = self.builder.node_of_state(id);
         self.map.state(node, &entry.key_span, raw);
         let bounds = [least, most].map(|bound| bound.map(|(bound, _)| bound));
         Some(Named { name: &entry.key, id, fields, ty, start, bounds })
+    }
+
+    /// True for a state with a balance; keys that have no effect with it are reported.
+    fn is_balanced(&mut self, fields: &Fields<'a>) -> bool {
+        let balanced = fields.has("balance");
+        if balanced {
+            self.refuse_keys(fields, &["rate", "min", "max"], "has no effect with `balance`");
+        }
+        balanced
     }
 
     /// A bound with its value; `Some(None)` if there is none.
@@ -150,13 +177,15 @@ impl<'a> Elaboration<'a> {
 
     fn state_law(&mut self, state: &Named<'a>) -> Option<()> {
         let fields = &state.fields;
-        let raw = self.require(fields, "rate")?;
+        let key = if fields.has("balance") { "balance" } else { "rate" };
+        let raw = self.require(fields, key)?;
         let per_second = state.ty.dimension.checked_div(Dimension::TIME).map(Type::of);
-        let wanted = Wanted::of_law(per_second, lptn_network::Context::Control);
-        let (rate, _) = self.written(fields, "rate", wanted)?;
+        let wanted = per_second.filter(|_| key == "rate");
+        let wanted = Wanted::of_law(wanted, lptn_network::Context::Control);
+        let (rate, _) = self.written(fields, key, wanted)?;
         let bounds = [0, 1].map(|side: usize| state.bounds[side].as_ref());
         let law = StateLaw { start: &state.start, rate: &rate, bounds };
-        let place = Place { owner: &fields.owner, key: "rate", raw };
+        let place = Place { owner: &fields.owner, key, raw };
         match self.builder.state_law(state.id, law) {
             Ok(source) => {
                 self.start_state(state.name, state.id);

@@ -19,12 +19,16 @@ const POWER: Type = Type::of(Dimension::POWER);
 /// Rate of a state that no bound stops, in SI units.
 const FREE: f64 = 1e300;
 
+/// Heat in W that stands for one SI unit of a balance: for flows in kg/s the balances of pressures
+/// are then as large as those of heat.
+const HEAT_OF_BALANCE: f64 = 1e3;
+
 /// The start, the rate and the bounds of a state, with types that were checked.
 #[derive(Clone, Copy, Debug)]
 pub struct StateLaw<'a> {
     /// Its value at the start, over parameters.
     pub start: &'a Expression,
-    /// Its change in its unit per second.
+    /// Its change in its unit per second; for a state with a balance the expression that is zero.
     pub rate: &'a Expression,
     /// Its least and its greatest value, over parameters.
     pub bounds: [Option<&'a Expression>; 2],
@@ -37,6 +41,23 @@ impl NetworkBuilder {
     /// Expressions that are compiled afterwards may use its name where they may use the temperature
     /// of a node. [`NetworkBuilder::state_law`] gives its start and its rate.
     pub fn state(&mut self, name: &str, ty: Type, size: f64) -> StateId {
+        let id = self.push_state(name, ty, size);
+        let node = self.parts.states[id.index()].node;
+        self.parts.nodes[node.index()].capacity = Some(Value::Constant(1.0));
+        id
+    }
+
+    /// Adds a state that has at every moment the value at which its balance is zero, such as the
+    /// pressure of a junction. The balance has to fall while the value rises.
+    pub fn balanced_state(&mut self, name: &str, ty: Type, size: f64) -> StateId {
+        let id = self.push_state(name, ty, size);
+        let state = &mut self.parts.states[id.index()];
+        state.balanced = true;
+        self.parts.nodes[state.node.index()].massless = true;
+        id
+    }
+
+    fn push_state(&mut self, name: &str, ty: Type, size: f64) -> StateId {
         let id = StateId::from_len(self.parts.states.len());
         let item = Item::State(id);
         if !(size.is_finite() && size > 0.0) {
@@ -48,11 +69,11 @@ impl NetworkBuilder {
             self.error(name, BuildErrorKind::StateSize { state: id, size });
         }
         let node = self.push_node(name, None, None, false);
-        self.parts.nodes[node.index()].capacity = Some(Value::Constant(1.0));
         self.parts.states.push(State {
             name: name.to_owned(),
             ty,
             scale,
+            balanced: false,
             node,
             source: None,
             start: None,
@@ -79,7 +100,7 @@ impl NetworkBuilder {
         let state = &mut self.parts.states[id.index()];
         state.start = Some(Value::Constant(value));
         let (node, kelvin) = (state.node, state.kelvin(value));
-        self.parts.nodes[node.index()].initial = Some(Value::Constant(kelvin));
+        self.start_at(node, crate::Temperature(kelvin));
     }
 
     /// Sets the unit in which a state is shown; a unit of another dimension is ignored.
@@ -99,9 +120,9 @@ impl NetworkBuilder {
         id: StateId,
         law: StateLaw<'_>,
     ) -> Result<SourceId, Problems<UnitError>> {
-        let (name, ty, scale) = {
+        let (name, ty, scale, balanced) = {
             let state = &self.parts.states[id.index()];
-            (state.name.clone(), state.ty, state.scale)
+            (state.name.clone(), state.ty, state.scale, state.balanced)
         };
         let start = law.start.compile(&self.scope(Context::Time), Some(ty))?;
         let bound = |bound: Option<&Expression>| {
@@ -111,7 +132,11 @@ impl NetworkBuilder {
         let bounds = [bound(law.bounds[0])?, bound(law.bounds[1])?];
         let inner = law.start.inside(&in_kelvin(ty, scale), HOLE);
         let inner = inner.compile(&self.scope(Context::Time), None)?;
-        let rate = law.rate.inside(&as_heat(&name, ty, scale, law.bounds), HOLE);
+        let frame = match balanced {
+            true => balance_as_heat(law.rate.compile(&self.scope(Context::Control), None)?.ty()),
+            false => as_heat(&name, ty, scale, law.bounds),
+        };
+        let rate = law.rate.inside(&frame, HOLE);
         let heat = rate.compile(&self.scope(Context::Control), Some(POWER))?;
         let node = self.parts.states[id.index()].node;
         self.parts.nodes[node.index()].initial = Some(Value::Expression(Arc::new(inner)));
@@ -205,6 +230,13 @@ fn in_kelvin(ty: Type, scale: f64) -> Expression {
 
 fn kelvin() -> Expression {
     Expression::literal(1.0, Type::of(Dimension::TEMPERATURE))
+}
+
+/// The heat in W into the node of a state for the balance `x` of this type.
+fn balance_as_heat(ty: Type) -> Expression {
+    let heat = Expression::literal(HEAT_OF_BALANCE, POWER);
+    let one = Expression::literal(1.0, Type::of(ty.dimension));
+    template("x * heat / one", &[("heat", &heat), ("one", &one)])
 }
 
 /// The heat in W into the node of a state, of 1 J/K, for the rate `x`.

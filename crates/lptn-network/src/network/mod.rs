@@ -33,7 +33,7 @@ use crate::parts::Parts;
 use crate::parts::result::Limit;
 use crate::parts::signal::Course;
 use crate::value::Value;
-use lptn_laws::Confidence;
+use lptn_laws::{Confidence, Range};
 use lptn_units::Problems;
 
 /// A thermal network: nodes, boundaries, the paths between them and the heat put in.
@@ -110,11 +110,14 @@ impl Network {
     }
 
     /// First trial temperature in K for the balance of a massless node: its temperature in the
-    /// state that a run starts from, or its own `T0`. `None` if neither is known.
+    /// state that a run starts from, or its own `T0`. `None` if neither is known. That of a state
+    /// with a balance may be negative.
     pub fn begins(&self, id: NodeId) -> Option<f64> {
         let node = &self.nodes()[id.index()];
         let given = || node.initial.as_ref()?.at(&mut self.evaluation()).ok();
-        node.stood.or_else(given).filter(|t| t.is_finite() && *t > 0.0)
+        let range = self.parts.range_at_start(id.index());
+        let possible = |t: &f64| t.is_finite() && (*t > 0.0 || range == Range::Finite);
+        node.stood.or_else(given).filter(possible)
     }
 
     /// Conductance of a conductor in W/K; `None` if it is not constant.

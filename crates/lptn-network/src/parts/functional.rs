@@ -113,7 +113,7 @@ pub struct History {
 }
 
 impl History {
-    /// That of a quantity that is constant. It has no length.
+    /// The time history of a constant quantity. It has no length.
     pub fn constant(value: f64) -> Self {
         let (positive, length) = (f64::NAN, f64::NAN);
         Self { last: value, min: value, max: value, mean: value, positive, length }

@@ -131,7 +131,7 @@ impl Parts {
     pub(crate) fn as_written(&self, item: Item, field: Field) -> (Item, Field) {
         match item {
             Item::Source(source) => match self.state_of(source) {
-                Some(state) => (Item::State(state), Field::Rate),
+                Some(state) => (Item::State(state), self.states[state.index()].law()),
                 None => (item, field),
             },
             _ => (item, field),

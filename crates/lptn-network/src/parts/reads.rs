@@ -162,6 +162,8 @@ impl Parts {
                 source.into.iter().for_each(|&(node, _)| touch(self.vertex(End::Node(node))));
             }
         }
+        // nothing but its balance determines a state
+        self.states.iter().for_each(|state| linear[state.node.index()] = false);
         linear
     }
 

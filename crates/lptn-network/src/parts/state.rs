@@ -5,12 +5,15 @@
 //! capacity of 1 J/K, so 1 K of the node is one scale of the state. Integrators, steady states,
 //! events and sensitivities then need nothing of their own, and one tolerance in K serves all. Its
 //! node and source are no part of the energy balance.
+//!
+//! A state with a balance instead of a rate, such as the pressure of a junction, is a massless node
+//! without paths: Newton's method finds the value at which its balance is zero.
 
 use std::sync::Arc;
 
 use lptn_units::{Expression, Type, Unit};
 
-use crate::id::{NodeId, SourceId};
+use crate::id::{Field, NodeId, SourceId};
 use crate::value::Value;
 
 /// A value with a rate of change.
@@ -22,6 +25,8 @@ pub struct State {
     pub ty: Type,
     /// Its change in SI units for 1 K of its node; 1 for a temperature.
     pub scale: f64,
+    /// True if a balance determines it at every moment, false if it has a rate.
+    pub balanced: bool,
     /// The node that contains it.
     pub node: NodeId,
     /// The source that changes it; `None` until
@@ -41,6 +46,11 @@ impl State {
     /// Its value in SI units if its node is at `kelvin`.
     pub fn value(&self, kelvin: f64) -> f64 {
         self.scale * kelvin
+    }
+
+    /// The field that determines it.
+    pub fn law(&self) -> Field {
+        if self.balanced { Field::Balance } else { Field::Rate }
     }
 
     /// A usual size in SI units with this scale.

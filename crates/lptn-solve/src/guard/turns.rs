@@ -1,4 +1,7 @@
 //! Turning points of expressions of temperatures: no step goes past one undetected.
+//!
+//! Expressions that read a state with a balance, such as the pressure of a junction, are left out:
+//! it does not go straight on while temperatures do, and flows rise with pressure differences.
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Evaluation, Network, Reader};
@@ -66,9 +69,14 @@ impl Turns {
             narrow: false,
         };
         let mut known = std::collections::BTreeMap::new();
+        let balanced = |vertex: usize| {
+            system.network().states().iter().any(|s| s.balanced && s.node.index() == vertex)
+        };
         for reader in turns.network.readers() {
             // expressions of given temperatures are covered as those over time
-            if reader.reads_only(|vertex| vertex >= given) {
+            if reader.reads_only(|vertex| vertex >= given)
+                || !reader.reads_only(|vertex| vertex >= given || !balanced(vertex))
+            {
                 continue;
             }
             let Some(family) = reader.family() else {

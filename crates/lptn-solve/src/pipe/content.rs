@@ -152,8 +152,8 @@ impl Content {
                 let before = self.pieces.iter().find(|piece| piece.to >= jump)?;
                 return Some(before.at(jump));
             }
-            // an end may be off by what counts as the same; fluid that entered in a step and comes
-            // back in it is that at the end, and the step is cut where the flow turns
+            // an end may be off by a rounding; fluid that entered in a step and comes back in it is
+            // that at the end, and the step is cut where the flow turns
             _ if reversed && mark < first.from - 4.0 * self.same() => return None,
             _ if !reversed && mark > last.to + 4.0 * self.same() => return None,
             _ if reversed => self.pieces.iter().rev().find(|piece| piece.from <= mark),
@@ -179,9 +179,9 @@ impl Content {
     }
 
     /// Takes in the fluid that entered during a step in which the flow did not reverse. A difference
-    /// of more than `apart` in K to the fluid before it is a jump; if the step began anew, a bend is an
+    /// of more than `apart` in K to the fluid before it is a jump; if the step follows an event, a bend is an
     /// edge too.
-    pub(crate) fn enter(&mut self, fluid: Entering, (apart, anew): (f64, bool)) {
+    pub(crate) fn enter(&mut self, fluid: Entering, (apart, fresh): (f64, bool)) {
         let Entering { passed, temperatures } = fluid;
         let [start, end] = [passed[0], passed[POINTS - 1]];
         self.passed = end;
@@ -194,7 +194,7 @@ impl Content {
         let marks = passed.map(|passed| passed - way);
         let (from, to) = (marks[0].min(marks[POINTS - 1]), marks[0].max(marks[POINTS - 1]));
         let piece = Piece { from, to, marks, temperatures };
-        let edge = self.edge(&piece, forward, (apart, anew));
+        let edge = self.edge(&piece, forward, (apart, fresh));
         match forward {
             true => {
                 self.edges.extend(edge);
@@ -205,11 +205,11 @@ impl Content {
                 self.pieces.push_front(piece);
             }
         }
-        self.drop_what_left();
+        self.drop_the_rest();
     }
 
     /// The edge between the fluid at the end that a piece enters and that piece.
-    fn edge(&self, piece: &Piece, forward: bool, (apart, anew): (f64, bool)) -> Option<Edge> {
+    fn edge(&self, piece: &Piece, forward: bool, (apart, fresh): (f64, bool)) -> Option<Edge> {
         let beside = if forward { self.pieces.back()? } else { self.pieces.front()? };
         let mark = piece.marks[0];
         let before = beside.at(if forward { beside.to } else { beside.from });
@@ -221,12 +221,12 @@ impl Content {
             [Some(before), Some(after)] => (after - before).abs() * self.size > BENT * apart,
             _ => true,
         };
-        (anew && bends).then_some(Edge { mark, jumps: false })
+        (fresh && bends).then_some(Edge { mark, jumps: false })
     }
 
     /// Forgets the fluid that is no longer in the pipe.
-    fn drop_what_left(&mut self) {
-        // what has come has left, whatever the rounding
+    fn drop_the_rest(&mut self) {
+        // an edge that has come has left, whatever the rounding
         let (outlet, inlet, same) = (self.passed - self.size, self.passed, 2.0 * self.same());
         self.pieces.retain(|piece| piece.to > outlet + same && piece.from < inlet - same);
         self.edges.retain(|edge| edge.mark > outlet + same && edge.mark < inlet - same);

@@ -112,11 +112,11 @@ impl Pipes {
         found
     }
 
-    /// Takes in the fluid that entered in a step, one entry for each pipe; `anew` is true if
+    /// Takes in the fluid that entered in a step, one entry for each pipe; `fresh` is true if
     /// temperatures may bend where the step began.
-    pub(crate) fn enter(&mut self, entering: Vec<Entering>, anew: bool) {
+    pub(crate) fn enter(&mut self, entering: Vec<Entering>, fresh: bool) {
         for (pipe, fluid) in self.filled.iter_mut().zip(entering) {
-            pipe.content.enter(fluid, (self.apart, anew));
+            pipe.content.enter(fluid, (self.apart, fresh));
         }
     }
 

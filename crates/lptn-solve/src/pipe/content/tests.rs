@@ -22,7 +22,7 @@ fn fluid_leaves_in_the_order_in_which_it_entered() {
     near(content.leaving(8.0, false), 300.0);
     assert!((content.next_edge(false).unwrap().passed - 10.0).abs() < 1e-12);
     content.enter(fluid(4.0, 9.0, |x| 354.0 - 2.0 * (x - 4.0)), (1e-6, true));
-    // the jump stops what leaves until it has come
+    // the jump stops the fluid that leaves until it has come
     near(content.leaving(12.0, false), 300.0);
     content.enter(fluid(9.0, 10.0, |_| 340.0), (1e-6, true));
     near(content.leaving(10.0, false), 350.0);

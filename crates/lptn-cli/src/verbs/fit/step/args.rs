@@ -11,7 +11,8 @@ Examples:
   lptn fit step record.csv
   lptn fit step record.csv --capacity \"2659 J/K ± 5 %\" --sensor \"3 K\"
   lptn fit step record.csv --capacity \"2659 J/K\" --reference mill_bed
-  lptn fit step record.csv --model gearbox.toml --port steel --format json";
+  lptn fit step record.csv --model gearbox.toml --port steel --format json
+  lptn fit step zth.csv --terms 4";
 
 /// Fit one exponential to each thermocouple of a record
 #[derive(Debug, Arguments)]
@@ -53,6 +54,12 @@ pub(crate) struct StepArgs {
     /// Write P_disp, R_eq and C_eq with their covariance here, for lptn run --posterior
     #[arg(long, value_name = "FILE", requires = "capacity")]
     pub(crate) posterior: Option<PathBuf>,
+    /// Fit several exponentials to one column: their number, or auto for that of the least AICc
+    #[arg(long, value_name = "N", conflicts_with_all = ["capacity", "sensor", "model", "posterior"])]
+    pub(crate) terms: Option<String>,
+    /// Heat of the step, such as "1 W": terms are then resistances
+    #[arg(long, value_name = "W", requires = "terms", allow_hyphen_values = true)]
+    pub(crate) power: Option<String>,
     #[command(flatten)]
     pub(crate) printed: Printed,
     #[command(flatten)]
