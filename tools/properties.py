@@ -9,7 +9,11 @@ Needs CoolProp (https://coolprop.org, MIT licence), whose equations it tabulates
 air: E. W. Lemmon et al., J. Phys. Chem. Ref. Data 29 (2000) 331; E. W. Lemmon and R. T. Jacobsen,
 Int. J. Thermophys. 25 (2004) 21. Water: W. Wagner and A. Pruss (IAPWS-95), J. Phys. Chem. Ref. Data
 31 (2002) 387; M. L. Huber et al., 38 (2009) 101 and 41 (2012) 033102. Glycol: A. Melinder,
-Properties of Secondary Working Fluids (IIR 2010).
+Properties of Secondary Working Fluids (IIR 2010). R134a: R. Tillner-Roth and H. D. Baehr,
+J. Phys. Chem. Ref. Data 23 (1994) 657. R1234yf: M. Richter, M. O. McLinden and E. W. Lemmon,
+J. Chem. Eng. Data 56 (2011) 3254.
+
+Carbon steel over temperature is that of EN 1993-1-2:2005, 3.4.1.
 """
 
 from pathlib import Path
@@ -52,6 +56,10 @@ def brine(letter, t):
     return -(at("D", t + 0.5) - at("D", t - 0.5)) / at("D", t)
 
 
+def liquid(fluid):
+    return lambda letter, t: PropsSI(letter, "T", t, "Q", 0, fluid)
+
+
 # name, function, temperatures, least temperature of the expansion, what it is
 FLUIDS = [
     ("air", gas, steps((150, 500, 10), (500, 800, 25), (800, 1500, 50)), 0.0,
@@ -61,6 +69,46 @@ FLUIDS = [
      "density"),
     ("glycol_50", brine, steps((245, 335, 2), (335, 370, 5)), 0.0,
      "ethylene glycol in water, 50 % of the mass, at 101325 Pa"),
+    ("r134a", liquid("R134a"), steps((220, 320, 4), (320, 350, 2)), 0.0,
+     "liquid R134a that is about to boil"),
+    ("r1234yf", liquid("R1234yf"), steps((224, 312, 4), (312, 344, 2)), 0.0,
+     "liquid R1234yf that is about to boil"),
+]
+
+
+def steel_cp(t):
+    """EN 1993-1-2, 3.4.1.2, of carbon steel; t in K."""
+    c = t - 273.15
+    if c < 600:
+        return 425 + 0.773 * c - 1.69e-3 * c**2 + 2.22e-6 * c**3
+    if c < 735:
+        return 666 + 13002 / (738 - c)
+    return max(545 + 17820 / (c - 731), 650)
+
+
+def steel_k(t):
+    """EN 1993-1-2, 3.4.1.3."""
+    c = t - 273.15
+    return 54 - 3.33e-2 * c if c < 800 else 27.3
+
+
+def steel_points():
+    """Denser around the peak of cp at 735 degC and where its formula changes."""
+    rising = [738 - 138 * (3.02 / 138) ** (i / 60) for i in range(61)]
+    falling = [731 + 4.02 * (169 / 4.02) ** (i / 60) for i in range(60)]
+    falling = [c for c in falling if c < 885] + [887, 893, 897, 899, 900]
+    celsius = [*range(20, 600, 20), 590, 597, 599.5, *rising, 735, *falling, *range(920, 1201, 40)]
+    return [273.15 + c for c in celsius]
+
+
+# k is linear, with a step at 800 degC
+STEEL_K_POINTS = [273.15 + c for c in (20, 799.9, 800, 1200)]
+
+# name, properties with their functions, temperatures and interpolation, source
+SOLIDS = [
+    ("steel_en_1993",
+     {"cp": (steel_cp, steel_points(), "pchip"), "k": (steel_k, STEEL_K_POINTS, "linear")},
+     "EN 1993-1-2:2005, 3.4.1"),
 ]
 
 
@@ -80,6 +128,13 @@ def films():
             x = ", ".join(number(t) for t in own)
             y = ", ".join(number(at(letter, t)) for t in own)
             lines.append(f'{key} = {{ x = [{x}], x_unit = "K", y = [{y}], y_unit = "{unit}", interp = "pchip" }}')
+    units = {key: unit for key, _, unit in PROPERTIES}
+    for name, properties, source in SOLIDS:
+        lines += ["", f"[material.{name}]", f'source = "{source}"']
+        for key, (at, temperatures, interp) in properties.items():
+            x = ", ".join(number(t) for t in temperatures)
+            y = ", ".join(number(at(t)) for t in temperatures)
+            lines.append(f'{key} = {{ x = [{x}], x_unit = "K", y = [{y}], y_unit = "{units[key]}", interp = "{interp}" }}')
     return "\n".join(lines) + "\n"
 
 

@@ -58,17 +58,43 @@ pub(crate) fn convection() -> Vec<Closed> {
         ("still.T", "30 min", still(1800.0)),
         ("still.T", "steady", 20.0),
     ];
-    [closed, correlations(), sinks(), draughts()].concat()
+    [closed, correlations(), bodies(), walls(), sinks(), draughts()].concat()
 }
 
-/// 0.1 m^2 at 80 degC in the gas of the page at 20 degC, whose film is at 50 degC.
+/// The gas of the page, whose film is at 50 degC: k, density, cp, viscosity, expansion.
+const GAS: [f64; 5] = [0.0277, 1.1, 1007.0, 19.5e-6, 1.0 / 323.15];
+
+fn prandtl() -> f64 {
+    GAS[3] * GAS[2] / GAS[0]
+}
+
+/// The Rayleigh number of a length at 60 K.
+fn ra(l: f64) -> f64 {
+    let [k, rho, cp, mu, beta] = GAS;
+    9.80665 * beta * 60.0 * l.powi(3) * rho * rho * cp / (mu * k)
+}
+
+fn re(u: f64, l: f64) -> f64 {
+    GAS[1] * u * l / GAS[3]
+}
+
+/// The heat from 0.1 m^2 at 60 K.
+fn heat(nu: f64, l: f64) -> f64 {
+    nu * GAS[0] / l * 0.1 * 60.0
+}
+
+/// Churchill and Chu, with the Rayleigh number of the length.
+fn upright(ra: f64) -> f64 {
+    let weight = (1.0 + (0.492 / prandtl()).powf(9.0 / 16.0)).powf(8.0 / 27.0);
+    (0.825 + 0.387 * ra.powf(1.0 / 6.0) / weight).powi(2)
+}
+
+/// 3000 rpm in rad/s.
+const TURNS: f64 = 100.0 * std::f64::consts::PI;
+
+/// 0.1 m^2 at 80 degC in the gas of the page at 20 degC.
 fn correlations() -> Vec<Closed> {
-    let (k, rho, cp, mu, beta) = (0.0277, 1.1, 1007.0, 19.5e-6, 1.0 / 323.15);
-    let pr: f64 = mu * cp / k;
-    let ra = |l: f64| 9.80665 * beta * 60.0 * l.powi(3) * rho * rho * cp / (mu * k);
-    let re = |u: f64, l: f64| rho * u * l / mu;
-    let heat = |nu: f64, l: f64| nu * k / l * 0.1 * 60.0;
-    let weight = |c: f64| (1.0 + (c / pr).powf(9.0 / 16.0)).powf(8.0 / 27.0);
+    let pr = prandtl();
     let third = pr.powf(1.0 / 3.0);
     let blown: f64 = re(2.0, 0.05);
     let late = (1.0 + (blown / 282_000.0).powf(0.625)).powf(0.8);
@@ -77,16 +103,12 @@ fn correlations() -> Vec<Closed> {
     let flow = re(6.0, 0.03);
     let f = (0.79 * flow.ln() - 1.64).powi(-2) / 8.0;
     let channel = f * (flow - 1000.0) * pr / (1.0 + 12.7 * f.sqrt() * (pr.powf(2.0 / 3.0) - 1.0));
-    let turns = 3000.0 * std::f64::consts::PI / 30.0;
-    let skin: f64 = re(turns * 0.02, 0.04);
-    let ta = (turns * rho / mu).powi(2) * 0.04 * 0.002_f64.powi(3);
+    let pipe = (1.0 + (0.559 / pr).powf(9.0 / 16.0)).powf(8.0 / 27.0);
+    let skin: f64 = re(TURNS * 0.02, 0.04);
+    let ta = (TURNS * GAS[1] / GAS[3]).powi(2) * 0.04 * 0.002_f64.powi(3);
     vec![
-        ("plate.Q", "steady", {
-            heat((0.825 + 0.387 * ra(0.3).powf(1.0 / 6.0) / weight(0.492)).powi(2), 0.3)
-        }),
-        ("pipe.Q", "steady", {
-            heat((0.6 + 0.387 * ra(0.05).powf(1.0 / 6.0) / weight(0.559)).powi(2), 0.05)
-        }),
+        ("plate.Q", "steady", heat(upright(ra(0.3)), 0.3)),
+        ("pipe.Q", "steady", heat((0.6 + 0.387 * ra(0.05).powf(1.0 / 6.0) / pipe).powi(2), 0.05)),
         ("lid.Q", "steady", heat(0.54 * ra(0.04).powf(0.25), 0.04)),
         ("floor.Q", "steady", heat(0.27 * ra(0.08).powf(0.25), 0.08)),
         ("rod.Q", "steady", heat(rod, 0.05)),
@@ -97,16 +119,52 @@ fn correlations() -> Vec<Closed> {
             heat(0.11 * (0.5 * skin * skin * pr + ra(0.04)).powf(0.35), 0.04)
         }),
         ("gap.Q", "steady", heat(0.409 * ta.powf(0.241), 2.0 * 0.002)),
+    ]
+}
+
+/// Spheres, an inclined plate, a disc, a jet and gaps in the same gas.
+fn bodies() -> Vec<Closed> {
+    let pr = prandtl();
+    let ball =
+        2.0 + 0.589 * ra(0.05).powf(0.25) / (1.0 + (0.469 / pr).powf(0.5625)).powf(4.0 / 9.0);
+    let flow = re(2.0, 0.05);
+    let blown = 2.0 + (0.4 * flow.sqrt() + 0.06 * flow.cbrt().powi(2)) * pr.powf(0.4);
+    // Nu = 2 times the integral of the local Nu over x = r/R, whose Re is Re x^2
+    let spin = re(TURNS * 0.12, 0.12);
+    let [first, last] = [1.95e5, 2.5e5].map(|re: f64| (re / spin).sqrt());
+    let disc = 0.340 * spin.sqrt() * first.powi(2)
+        + 2e-19 / 9.0 * spin.powi(4) * (last.powi(9) - first.powi(9))
+        + 2.0 * 0.0188 / 2.6 * spin.powf(0.8) * (1.0 - last.powf(2.6));
+    let nozzle = re(30.0, 0.01);
+    let share = 0.25 * (1.0 - 1.1 * 0.25) / (1.0 + 0.1 * (5.0 - 6.0) * 0.25);
+    let jet = share * 2.0 * (nozzle + 0.005 * nozzle.powf(1.55)).sqrt() * pr.powf(0.42);
+    let gap = ra(0.02);
+    let layer = 1.44 * (1.0 - 1708.0 / gap) + (gap / 5830.0).cbrt();
+    let pane = (1.0 + (0.104 * gap.powf(0.293) / (1.0 + (6310.0 / gap).powf(1.36))).powi(3)).cbrt();
+    vec![
+        ("ball.Q", "steady", heat(ball, 0.05)),
+        ("blown_ball.Q", "steady", heat(blown, 0.05)),
+        ("roof.Q", "steady", heat(upright(ra(0.25) * 0.75_f64.sqrt()), 0.25)),
+        ("disc.Q", "steady", heat(disc, 0.12)),
+        ("jet.Q", "steady", heat(jet, 0.01)),
+        ("layer.Q", "steady", heat(layer, 0.02)),
+        ("pane.Q", "steady", heat(pane, 0.02)),
+    ]
+}
+
+/// A wall in a draught, gearboxes and a heat sink.
+fn walls() -> Vec<Closed> {
+    let k = GAS[0];
+    vec![
         ("draught.Q", "steady", {
-            let natural = (0.825 + 0.387 * ra(0.3).powf(1.0 / 6.0) / weight(0.492)).powi(2);
-            let forced = 0.664 * re(2.0, 0.5).sqrt() * third;
-            6.0 * ((natural * k / 0.3).powi(3) + (forced * k / 0.5).powi(3)).powf(1.0 / 3.0)
+            let forced = 0.664 * re(2.0, 0.5).sqrt() * prandtl().powf(1.0 / 3.0);
+            6.0 * ((upright(ra(0.3)) * k / 0.3).powi(3) + (forced * k / 0.5).powi(3)).cbrt()
         }),
         ("gearbox.Q", "steady", {
             6.0 * 18.0 * 0.3_f64.powf(-0.1) * (60.0_f64 / 293.15).powf(0.3)
         }),
         ("blown_gearbox.Q", "steady", {
-            let gr = ra(0.5) / pr;
+            let gr = ra(0.5) / prandtl();
             6.0 * 0.0086 * (re(2.0, 0.5).powi(2) + gr / 2.5).sqrt().powf(0.64) / 0.5
         }),
         ("sink.Q", "steady", {

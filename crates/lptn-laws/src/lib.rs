@@ -31,6 +31,7 @@
 
 mod advection;
 mod bearing;
+mod bodies;
 mod churning;
 mod conduction;
 mod contact;
@@ -43,6 +44,7 @@ mod fins;
 mod fluid;
 mod forced_convection;
 mod free_convection;
+mod gap;
 mod involute;
 mod joint;
 mod list;
@@ -66,6 +68,7 @@ mod wall;
 
 pub use advection::{advection_from, advection_to, stream_from, stream_to};
 pub use bearing::{bearing_load, bearing_no_load};
+pub use bodies::{nusselt_disc, nusselt_jet, nusselt_sphere_at_rest, nusselt_sphere_in_flow};
 pub use churning::Churned;
 pub use conduction::{cylinder, rod, slab, sphere};
 pub use convection::film;
@@ -87,6 +90,7 @@ pub use free_convection::{
     nusselt_horizontal_cylinder, nusselt_plate_driven, nusselt_plate_layered,
     nusselt_vertical_plate, rayleigh,
 };
+pub use gap::{nusselt_gap_from_below, nusselt_gap_vertical};
 pub use involute::{Engagement, GearPair, Profile};
 pub use joint::contact_conductance;
 pub use list::{Formula, Kind};

@@ -86,6 +86,8 @@ declare! {
     free_convection: { VerticalPlate, HorizontalCylinder, UpperSide, LowerSide };
     forced_convection: { CrossFlow, CrossFlowHilpert, FlatPlate, Duct };
     rotation: { Shaft, Annulus };
+    bodies: { SphereAtRest, SphereInFlow, InclinedPlate, Disc, Jet };
+    gap: { GapFromBelow, GapVertical };
     fins: { StraightFins };
     plate_fins: { PlateFins, PlateFinsBlown };
     wall: { WallInWind, WallInVerticalFlow, GearboxWall, GearboxWallBlown };

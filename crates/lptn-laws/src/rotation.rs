@@ -43,7 +43,7 @@ pub fn nusselt_annulus<S: Scalar>(ta: S) -> S {
     vortices.min(late).max(S::from_f64(2.0))
 }
 
-const ROTATION: FieldDeclaration = FieldDeclaration {
+pub(crate) const ROTATION: FieldDeclaration = FieldDeclaration {
     range: Range::Finite,
     ..FieldDeclaration::new(
         "rotation",

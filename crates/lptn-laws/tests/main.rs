@@ -7,6 +7,7 @@
     reason = "modules of tests, and tables that some of them share; a test fails by panicking"
 )]
 
+mod bodies;
 mod correlations;
 mod derivatives;
 mod exchangers;

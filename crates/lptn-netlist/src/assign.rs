@@ -347,6 +347,9 @@ fn material_values(material: &Material, field: Field) -> Vec<&Value> {
     let value = match field {
         Field::Density => material.density.as_ref(),
         Field::SpecificHeat => material.cp.as_ref(),
+        Field::AxialConductivity => material.k_axis.as_ref(),
+        Field::Fill => material.winding.as_ref().map(|winding| &winding.fill),
+        Field::EnamelFill => material.winding.as_ref().map(|winding| &winding.enamel_fill),
         Field::Solidus => melting.map(|m| &m.solidus),
         Field::LatentHeat => melting.map(|m| &m.heat),
         Field::Liquidus => return melting.map_or_else(Vec::new, |m| vec![&m.solidus, &m.liquidus]),

@@ -70,18 +70,28 @@ fn places(diagnostic: Diagnostic, error: &BuildError, map: &SourceMap) -> Diagno
         | Kind::FacesApart { item, faces, .. }
         | Kind::FacesMoved { item, faces, .. }
         | Kind::FacesMoving { item, faces, .. } => {
-            let cells = matches!(error.kind, Kind::FaceCells { .. });
-            let [a, b] = faces.map(|face| grid_size(map, face, cells));
-            let apart = matches!(error.kind, Kind::FacesApart { .. });
-            let offset = map.get(*item, Field::Offset).filter(|_| apart);
-            let here = diagnostic.at(offset.or_else(|| map.get(*item, Field::To)), "");
-            here.also(a, "from this grid").also(b, "to this grid")
+            joined_faces(diagnostic, &error.kind, (*item, *faces), map)
         }
         kind => match error.place() {
             Some((item, field)) => diagnostic.at(map.nearest(item, field), label(kind)),
             None => diagnostic.at(map.top().cloned(), ""),
         },
     }
+}
+
+/// The places of two faces that cannot be joined.
+fn joined_faces(
+    diagnostic: Diagnostic,
+    kind: &Kind,
+    (item, faces): (Item, [GridFace; 2]),
+    map: &SourceMap,
+) -> Diagnostic {
+    let cells = matches!(kind, Kind::FaceCells { .. });
+    let [a, b] = faces.map(|face| grid_size(map, face, cells));
+    let apart = matches!(kind, Kind::FacesApart { .. });
+    let offset = map.get(item, Field::Offset).filter(|_| apart);
+    let here = diagnostic.at(offset.or_else(|| map.get(item, Field::To)), "");
+    here.also(a, "from this grid").also(b, "to this grid")
 }
 
 fn label(kind: &Kind) -> &'static str {

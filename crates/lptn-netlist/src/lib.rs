@@ -93,6 +93,7 @@ mod sweep;
 mod syntax;
 mod syntax_error;
 mod template;
+mod texture;
 mod toml_1_1;
 mod toml_text;
 mod uncertainty;

@@ -14,7 +14,7 @@ use crate::syntax;
 
 const TEXT: &str = include_str!("library.toml");
 
-/// Properties of its fluids for films, over temperature.
+/// Properties over temperature: those of fluids, for films, and of some solids.
 const FILMS: &str = include_str!("films.toml");
 
 /// One substance of the library. Values in SI units.
@@ -28,14 +28,16 @@ pub struct LibrarySubstance {
     pub density: Option<f64>,
     /// Specific heat capacity in J/(kg K); of a fluid at constant pressure.
     pub cp: Option<f64>,
-    /// Thermal conductivity in W/(m K).
+    /// Thermal conductivity in W/(m K); of layers in their plane.
     pub k: Option<f64>,
+    /// Thermal conductivity across layers in W/(m K), if it differs.
+    pub k_through: Option<f64>,
     /// Temperature in K at which the properties of a fluid are valid; for solids `source` gives it.
     pub temperature: Option<f64>,
     /// Source of the numbers, and the state at which they are valid.
     pub source: String,
-    /// Properties of a fluid for films, by key: tables over temperature in K, in SI units, if there
-    /// are any.
+    /// Properties by key: tables over temperature in K, in SI units, if there are any. Those of a
+    /// fluid are for films and flows.
     pub film: Vec<(String, Table1)>,
 }
 
@@ -62,14 +64,16 @@ struct Library {
 
 static LIBRARY: LazyLock<Library> = LazyLock::new(|| {
     let (raw, films) = (read("library.toml", TEXT), read("films.toml", FILMS));
-    let records = |name: &str| raw.elements(name).iter().filter_map(record).collect::<Vec<_>>();
-    let mut fluids = records("fluid");
-    for fluid in &mut fluids {
-        let own = films.elements("fluid").iter().find(|entry| entry.key == fluid.name);
-        fluid.film = own.map_or_else(Vec::new, film);
-    }
+    let records = |name: &str| {
+        let mut records: Vec<_> = raw.elements(name).iter().filter_map(record).collect();
+        for record in &mut records {
+            let own = films.elements(name).iter().find(|entry| entry.key == record.name);
+            record.film = own.map_or_else(Vec::new, film);
+        }
+        records
+    };
     let lubricants = raw.elements("lubricant").to_vec();
-    Library { materials: records("material"), fluids, lubricants }
+    Library { materials: records("material"), fluids: records("fluid"), lubricants }
 });
 
 fn read(name: &str, text: &str) -> RawNetlist {
@@ -112,6 +116,7 @@ fn record(entry: &RawEntry) -> Option<LibrarySubstance> {
         density: value("density", Type::of(Dimension::DENSITY)),
         cp: value("cp", Type::of(Dimension::SPECIFIC_HEAT)),
         k: value("k", Type::of(Dimension::CONDUCTIVITY)),
+        k_through: value("k_through", Type::of(Dimension::CONDUCTIVITY)),
         temperature: value("T", Type::ABSOLUTE_TEMPERATURE),
         source: text(table, "source")?.to_owned(),
         film: Vec::new(),
@@ -155,7 +160,11 @@ fn film(fluid: &RawEntry) -> Vec<(String, Table1)> {
     let property = |entry: &RawEntry| {
         let RawKind::Table(points) = &entry.value.kind else { return None };
         let (x, y) = (numbers(points, "x")?, numbers(points, "y")?);
-        let table = Table1::new(x, y, Interpolation::Pchip, Outside::Error).ok()?;
+        let interpolation = match text(points, "interp") {
+            Some("linear") => Interpolation::Linear,
+            _ => Interpolation::Pchip,
+        };
+        let table = Table1::new(x, y, interpolation, Outside::Error).ok()?;
         Some((entry.key.clone(), table))
     };
     properties.entries.iter().filter_map(property).collect()

@@ -98,6 +98,7 @@ fn properties(network: &Network) -> Vec<Property<'_>> {
         all.extend(material.cp.iter().map(|value| (item, Field::SpecificHeat, value)));
         all.extend(material.density.iter().map(|value| (item, Field::Density, value)));
         all.extend(material.k.iter().map(|value| (item, Field::Conductivity, value)));
+        all.extend(material.k_axis.iter().map(|value| (item, Field::AxialConductivity, value)));
     }
     for (id, grid) in network.grid_ids().zip(network.grids()) {
         let item = Item::Grid(id);
@@ -116,7 +117,9 @@ fn implausible(
 ) -> Option<Diagnostic> {
     // a material of the library has no place
     let place = map.get(item, field).or_else(|| map.name(item))?;
-    let range = RANGES.iter().find(|range| range.key == field.key())?;
+    let axial = field == Field::AxialConductivity;
+    let kind = if axial { Field::Conductivity } else { field };
+    let range = RANGES.iter().find(|range| range.key == kind.key())?;
     let mut scope = network.evaluation();
     let odd = |t: &f64| {
         let value = network.property_of(property, *t, &mut scope)?;
@@ -129,7 +132,7 @@ fn implausible(
     };
     let message = format!(
         "`{}` of {} `{}` is {} {}{at}, which no solid has",
-        range.key,
+        field.key(),
         map.kind(item),
         network.name_of(item),
         short(value),

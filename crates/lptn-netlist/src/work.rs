@@ -17,6 +17,7 @@ use crate::raw::{RawEntry, RawNetlist};
 use crate::scales::Scales;
 use crate::source_map::SourceMap;
 use crate::template::Structure;
+use crate::texture::Texture;
 
 /// Work in progress: the network as far as it is built, and everything found on the way.
 pub(crate) struct Elaboration<'a> {
@@ -95,6 +96,7 @@ pub(crate) struct Known {
     pub(crate) density: bool,
     pub(crate) cp: bool,
     pub(crate) k: bool,
+    pub(crate) texture: Texture,
 }
 
 /// A fluid in use or ready to be.

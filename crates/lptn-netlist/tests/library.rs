@@ -148,3 +148,52 @@ fn gear_oil_agrees_with_the_correlation_for_petroleum_oils_and_with_engine_oil()
     near(oil.cp.unwrap(), between(2035.0, 2076.0), 0.02);
     near(oil.k.unwrap(), between(0.141, 0.139), 0.01);
 }
+
+/// Formulas of EN 1993-1-2:2005, 3.4.1, every 0.05 K. The peak of cp of 5000 J/(kg K) at 735 degC and
+/// the step of k of 0.2 % at 800 degC are sharp.
+#[test]
+fn structural_steel_is_that_of_its_standard() {
+    let steel = record("steel_en_1993");
+    let at = |key: &str, celsius: f64| {
+        let (_, table) = steel.film.iter().find(|(known, _)| known == key).unwrap();
+        table.value_and_slope(celsius + 273.15).unwrap().0
+    };
+    let cp = |c: f64| match c {
+        c if c < 600.0 => 425.0 + 0.773 * c - 1.69e-3 * c.powi(2) + 2.22e-6 * c.powi(3),
+        c if c < 735.0 => 666.0 + 13_002.0 / (738.0 - c),
+        c if c < 900.0 => 545.0 + 17_820.0 / (c - 731.0),
+        _ => 650.0,
+    };
+    let k = |c: f64| if c < 800.0 { 54.0 - 3.33e-2 * c } else { 27.3 };
+    for i in 0..=23_600 {
+        let c = 20.0 + 0.05 * f64::from(i);
+        let peak = (734.98..735.02).contains(&c);
+        near(at("cp", c), cp(c), if peak { 2e-3 } else { 1e-3 });
+        let step = (799.9..800.0).contains(&c);
+        near(at("k", c), k(c), if step { 2.4e-3 } else { 1e-6 });
+    }
+    near(at("cp", 735.0), 5000.0, 1e-6);
+}
+
+/// Units of the entries that their sources print in calories, and second numbers where there are
+/// any: Hirosugi prints a specific gravity of 1.80 for FR-4, Roditi 3.25 g/cm^3 and 100 to 180
+/// W/(m K) for AlN, makeitfrom.com the diffusivity of alumina.
+#[test]
+fn materials_of_machines_are_converted_and_consistent() {
+    near(record("fr4").density.unwrap(), 1800.0, 0.03);
+    // kcal/(m h K) and kcal/(kg K) of the source in SI units
+    near(record("ndfeb").k.unwrap(), 7.7 * 4186.8 / 3600.0, 1e-3);
+    near(record("ndfeb").cp.unwrap(), 0.12 * 4186.8, 1e-3);
+    // cal/(cm s K) and cal/(g K) of the source
+    near(record("polyester_film").k.unwrap(), 3.7e-4 * 418.68, 1e-3);
+    near(record("polyester_film").cp.unwrap(), 0.28 * 4186.8, 2e-3);
+    near(record("aluminium_nitride").density.unwrap(), 3250.0, 0.01);
+    assert!((100.0..=180.0).contains(&record("aluminium_nitride").k.unwrap()));
+    // the diffusivity that makeitfrom.com prints in addition, in mm^2/s
+    for (name, printed) in [("alumina_94", 5.8), ("alumina_98", 7.2)] {
+        let r = record(name);
+        near(1e6 * r.k.unwrap() / (r.density.unwrap() * r.cp.unwrap()), printed, 0.02);
+    }
+    let board = record("fr4");
+    assert_eq!((board.k, board.k_through), (Some(1.059), Some(0.343)));
+}

@@ -30,3 +30,4 @@ mod schema_check;
 mod set;
 mod support;
 mod template;
+mod winding;

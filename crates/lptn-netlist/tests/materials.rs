@@ -120,7 +120,11 @@ fn every_solid_of_the_library_can_be_used() {
         let text =
             format!("[node]\na = {{ material = \"{}\", volume = \"1 m^3\" }}\n", record.name);
         let netlist = good(&text);
-        close(netlist.network.capacity(a(&netlist)), record.density.unwrap() * record.cp.unwrap());
+        let expected = record.density.unwrap() * record.cp.unwrap();
+        let capacity = netlist.network.capacity(a(&netlist));
+        // a table over temperature is shown at 20 degC, and the node starts at 25 degC
+        let rounded = if record.film.is_empty() { 1e-12 } else { 0.01 };
+        assert!((capacity / expected - 1.0).abs() <= rounded, "{}: {capacity}", record.name);
         assert!(netlist.warnings.is_empty());
     }
 }

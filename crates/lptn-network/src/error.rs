@@ -4,9 +4,9 @@ use lptn_laws::Formula;
 use lptn_units::{EvalError, Type, format_short};
 
 use crate::error_words::{
-    Say, by, crossed, evaluation, face_area, in_unit, inside, joins_but, joins_cells, joins_sides,
-    keys, most_offset, most_pairs, not_positive, stream_help, stream_rows, unused_name, usable,
-    without_brackets,
+    Say, above_zero, by, crossed, evaluation, face_area, in_unit, inside, joins_but, joins_cells,
+    joins_sides, keys, most_offset, most_pairs, not_evaluated, not_positive, other_radii, radii,
+    stream_help, stream_rows, unused_name, usable, without_brackets,
 };
 use crate::id::{
     ConductorId, ControlId, Field, FluidId, GridId, Item, NodeId, SignalId, SourceId, StateId,
@@ -51,13 +51,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     /// A value that has to be finite and more than zero, but is not.
     NotPositive { item: Item, field: Field, value: f64 } = "network::not_positive",
         at Some((*item, *field)),
-        says match value.is_finite() {
-            true => format!(
-                "{} must be more than zero, got {}",
-                say.field(*item, *field), in_unit(*value, *field)
-            ),
-            false => format!("{} must be finite, got {value}", say.field(*item, *field)),
-        }, help text(not_positive(*field, *value));
+        says above_zero(say, (*item, *field), *value), help text(not_positive(*field, *value));
     /// A value that may be zero, but not less.
     Negative { item: Item, field: Field, value: f64 } = "network::negative",
         at Some((*item, *field)),
@@ -188,15 +182,8 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     /// A value that has to be larger than another, as an outer radius; in SI units.
     Radii { item: Item, fields: [Field; 2], inner: f64, outer: f64 } = "network::radii",
         at Some((*item, fields[1])),
-        says format!(
-            "{}, {}, must be larger than its `{}`, {}",
-            say.field(*item, fields[1]), in_unit(*outer, fields[1]), fields[0].key(),
-            in_unit(*inner, fields[0])
-        ),
-        help Some(match inner <= outer {
-            true => format!("a wall has a thickness: make `{}` larger", fields[1].key()),
-            false => format!("exchange `{}` and `{}`", fields[0].key(), fields[1].key()),
-        });
+        says radii(say, (*item, *fields), [*inner, *outer]),
+        help Some(other_radii(*fields, [*inner, *outer]));
     /// A path or source with a law of the other, or not one value for each field, or a wrong fluid.
     LawValues { item: Item, formula: Formula } = "network::law_values",
         at Some((*item, Field::Name)),
@@ -205,6 +192,15 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             say.item(*item), formula.declaration().name
         ),
         help Some(format!("its fields are {}", keys(*formula)));
+    /// A winding whose wires and enamel fill more than round wires can.
+    Overfilled { item: Item, share: f64 } = "network::overfilled",
+        at Some((*item, Field::Fill)),
+        says format!(
+            "wires and enamel of {} fill {} of the volume",
+            say.item(*item), format_short(*share)
+        ),
+        help text("round wires fill at most 0.907: check `fill` and `enamel_fill`, which are shares \
+            of the whole volume");
     /// A liquidus below the solidus, in K.
     Melting { item: Item, solidus: f64, liquidus: f64 } = "network::melting",
         at Some((*item, Field::Liquidus)),
@@ -282,12 +278,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     /// An expression that could not be evaluated.
     Evaluation { item: Item, field: Field, error: EvalError } = error.code(),
         at Some((*item, *field)),
-        says match error {
-            EvalError::NotFinite { value, .. } => {
-                format!("{} comes out as {value}, which is not finite", say.field(*item, *field))
-            }
-            _ => format!("{}: {error}", say.field(*item, *field)),
-        }, help evaluation(error);
+        says not_evaluated(&say.field(*item, *field), error), help evaluation(error);
     /// A conductor whose two ends are the same node.
     SelfLink { conductor: ConductorId } = "network::self_link",
         at Some((Item::Conductor(*conductor), Field::To)),

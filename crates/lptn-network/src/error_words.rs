@@ -126,7 +126,7 @@ pub(crate) fn in_unit(value: f64, field: Field) -> String {
         Field::Volume => Dimension::VOLUME,
         Field::Density => Dimension::DENSITY,
         Field::SpecificHeat => Dimension::SPECIFIC_HEAT,
-        Field::Conductivity => Dimension::CONDUCTIVITY,
+        Field::Conductivity | Field::AxialConductivity => Dimension::CONDUCTIVITY,
         Field::Size | Field::CharacteristicLength => Dimension::LENGTH,
         Field::Law(law) if !law.ty.absolute && !law.ty.is_scalar() => {
             let (unit, scale) = law.unit();
@@ -138,6 +138,15 @@ pub(crate) fn in_unit(value: f64, field: Field) -> String {
         _ => return format_short(value),
     };
     format!("{} {}", format_short(value), dimension.si_unit())
+}
+
+/// A value that is not finite and more than zero.
+pub(crate) fn above_zero(say: &Say<'_>, (item, field): (Item, Field), value: f64) -> String {
+    let of = say.field(item, field);
+    match value.is_finite() {
+        true => format!("{of} must be more than zero, got {}", in_unit(value, field)),
+        false => format!("{of} must be finite, got {value}"),
+    }
 }
 
 pub(crate) fn not_positive(field: Field, value: f64) -> &'static str {
@@ -153,11 +162,46 @@ pub(crate) fn not_positive(field: Field, value: f64) -> &'static str {
         | Field::Volume
         | Field::Density
         | Field::SpecificHeat
+        | Field::AxialConductivity
         | Field::Conductivity => "a body has a mass, a volume and properties of more than zero",
         Field::Size | Field::CharacteristicLength => "a body has dimensions of more than zero",
+        Field::Fill => "a winding has a conductor: its share is above 0",
         Field::Sector => "leave `angle` out for the full circle, or give one above 0 deg",
         Field::LatentHeat => "melting takes up heat: give it as a positive number",
         _ => "check the sign: heat flows from the warm to the cold end, whichever is named first",
+    }
+}
+
+/// Two radii in SI units of which the second must be the larger.
+pub(crate) fn radii(
+    say: &Say<'_>,
+    (item, [small, large]): (Item, [Field; 2]),
+    [inner, outer]: [f64; 2],
+) -> String {
+    format!(
+        "{}, {}, must be larger than its `{}`, {}",
+        say.field(item, large),
+        in_unit(outer, large),
+        small.key(),
+        in_unit(inner, small)
+    )
+}
+
+/// Help for two radii of which the second is not the larger.
+pub(crate) fn other_radii([small, large]: [Field; 2], [inner, outer]: [f64; 2]) -> String {
+    match inner <= outer {
+        true => format!("a wall has a thickness: make `{}` larger", large.key()),
+        false => format!("exchange `{}` and `{}`", small.key(), large.key()),
+    }
+}
+
+/// An expression of a field that could not be evaluated.
+pub(crate) fn not_evaluated(of: &str, error: &EvalError) -> String {
+    match error {
+        EvalError::NotFinite { value, .. } => {
+            format!("{of} comes out as {value}, which is not finite")
+        }
+        _ => format!("{of}: {error}"),
     }
 }
 

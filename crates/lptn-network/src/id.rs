@@ -196,6 +196,12 @@ pub enum Field {
     SpecificHeat,
     /// Thermal conductivity of a material.
     Conductivity,
+    /// Thermal conductivity of a material along its axis: across layers, along wires.
+    AxialConductivity,
+    /// Share of the conductor in a winding.
+    Fill,
+    /// Share of the enamel in a winding.
+    EnamelFill,
     /// Fluid of a stream.
     Fluid,
     /// Temperature at which a material begins to melt.
@@ -329,6 +335,9 @@ impl Field {
             Self::Density => "density",
             Self::SpecificHeat => "cp",
             Self::Conductivity => "k",
+            Self::AxialConductivity => "k_through",
+            Self::Fill => "fill",
+            Self::EnamelFill => "enamel_fill",
             Self::Fluid => "fluid",
             Self::Solidus => "solidus",
             Self::Liquidus => "liquidus",

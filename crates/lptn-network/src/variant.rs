@@ -111,7 +111,7 @@ impl Network {
         let parts = &*self.parts;
         let substances = parts.materials.iter().flat_map(|m| {
             let melting = m.melting.iter().flat_map(|m| [&m.solidus, &m.liquidus, &m.heat]);
-            m.density.iter().chain(&m.cp).chain(&m.k).chain(melting)
+            m.density.iter().chain(&m.cp).chain(&m.k).chain(&m.k_axis).chain(melting)
         });
         let limits = parts.limits.iter().flat_map(|limit| [&limit.of, &limit.value]);
         let signals = self.inputs().filter(|(item, ..)| matches!(item, Item::Signal(_)));

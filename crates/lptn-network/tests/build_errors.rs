@@ -171,9 +171,9 @@ fn types_of_every_field() {
                 liquidus: quantity("1 K"),
                 heat: quantity("1 J"),
             };
-            let (density, cp, k) =
-                (Some(quantity("1 m")), Some(quantity("1 m")), Some(quantity("1 m")));
-            b.material("m", Properties { density, cp, k, melting: Some(melting), source: None });
+            let [density, cp, k] = [(); 3].map(|()| Some(quantity("1 m")));
+            let melting = Some(melting);
+            b.material("m", Properties { density, cp, k, melting, ..Properties::default() });
         },
         6,
     );

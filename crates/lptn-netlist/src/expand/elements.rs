@@ -147,7 +147,11 @@ impl Writer<'_> {
         let substance = field.property.and_then(|of| Some((of.key(), self.substance_of(first)?)));
         match (substance, same) {
             (Some((key, _)), _) if fields.has(key) => {}
-            (Some((key, substance)), _) => fields.word(key, &self.name(substance)),
+            (Some((key, substance)), _) => {
+                fields.word(key, &self.name(substance));
+                let direction = self.direction(substance, first);
+                direction.into_iter().for_each(|word| fields.word("direction", word));
+            }
             (None, [_]) => fields.put(field.key, value(first, field.ty)),
             _ => {
                 let values: Vec<String> =

@@ -3,12 +3,13 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use lptn_network::{Field, FluidId, Item, Lump, MaterialId, Value};
+use lptn_network::{Field, FluidId, Item, Lump, MaterialId, Value, Winding};
 use lptn_units::{Dimension, LookupTable, Type};
 
 use super::Writer;
 use super::values::over_temperature;
 use crate::library;
+use crate::texture::Texture;
 use crate::toml_text::{TomlFields, quantity, value};
 
 impl Writer<'_> {
@@ -23,10 +24,17 @@ impl Writer<'_> {
                 continue;
             }
             let mut fields = TomlFields::default();
+            if let Some(winding) = &material.winding {
+                fields.put("winding", parts(winding));
+                source.into_iter().for_each(|source| fields.word("source", source));
+                section.put(&material.name, fields.inline());
+                continue;
+            }
             let properties = [
                 ("density", &material.density, Dimension::DENSITY),
                 ("cp", &material.cp, Dimension::SPECIFIC_HEAT),
                 ("k", &material.k, Dimension::CONDUCTIVITY),
+                ("k_through", &material.k_axis, Dimension::CONDUCTIVITY),
             ];
             for (key, property, dimension) in properties {
                 if let Some(property) = property {
@@ -108,7 +116,24 @@ impl Writer<'_> {
             Item::Material(id) => Some(id),
             _ => None,
         });
-        lumps.chain(bodies).collect()
+        let used: BTreeSet<MaterialId> = lumps.chain(bodies).collect();
+        let windings =
+            used.iter().filter_map(|id| network.materials()[id.index()].winding.as_ref());
+        let names = windings.flat_map(|of| [&of.wire, &of.resin].into_iter().chain(&of.enamel));
+        let names: BTreeSet<&String> = names.collect();
+        let parts = network.material_ids().zip(network.materials());
+        let parts = parts.filter(|(_, material)| names.contains(&material.name)).map(|(id, _)| id);
+        used.iter().copied().chain(parts).collect()
+    }
+
+    /// The direction of a path whose conductivity is this of a material of layers or wires.
+    pub(super) fn direction(&self, of: Item, value: &Value) -> Option<&'static str> {
+        let (Item::Material(id), Value::Expression(own)) = (of, value) else { return None };
+        let material = &self.network.materials()[id.index()];
+        let axial = material.k_axis.as_ref()?;
+        let texture = if material.winding.is_some() { Texture::Wires } else { Texture::Layers };
+        let same = matches!(axial, Value::Expression(other) if Arc::ptr_eq(own, other));
+        texture.word(same)
     }
 
     /// The materials and fluids whose properties paths use.
@@ -125,8 +150,10 @@ impl Writer<'_> {
         let Value::Expression(program) = property else { return None };
         let network = &self.network;
         let same = |own: &Value| matches!(own, Value::Expression(own) if Arc::ptr_eq(own, program));
-        let material =
-            |id: &MaterialId| network.materials()[id.index()].k.as_ref().is_some_and(same);
+        let material = |id: &MaterialId| {
+            let material = &network.materials()[id.index()];
+            material.k.iter().chain(&material.k_axis).any(same)
+        };
         let fluid = |id: &FluidId| {
             let fluid = &network.fluids()[id.index()];
             let film = fluid.film.iter().map(|(_, value)| value);
@@ -135,4 +162,17 @@ impl Writer<'_> {
         let material = network.material_ids().find(material).map(Item::Material);
         material.or_else(|| network.fluid_ids().find(fluid).map(Item::Fluid))
     }
+}
+
+/// The parts of a winding.
+fn parts(winding: &Winding) -> String {
+    let mut fields = TomlFields::default();
+    fields.put("fill", value(&winding.fill, Type::SCALAR));
+    fields.word("wire", &winding.wire);
+    fields.word("resin", &winding.resin);
+    if let Some(enamel) = &winding.enamel {
+        fields.word("enamel", enamel);
+        fields.put("enamel_fill", value(&winding.enamel_fill, Type::SCALAR));
+    }
+    fields.inline()
 }

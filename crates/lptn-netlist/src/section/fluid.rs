@@ -225,9 +225,9 @@ impl<'a> Elaboration<'a> {
     }
 }
 
-/// A property of a fluid of the library over its temperature, if there is a table; streams and
+/// A property of a substance of the library over its temperature, if there is a table; streams and
 /// films share one.
-fn table(record: &LibrarySubstance, key: &str) -> Option<Input> {
+pub(super) fn table(record: &LibrarySubstance, key: &str) -> Option<Input> {
     let (property, table) = record.film.iter().find(|(own, _)| own == key)?;
     let ty = LawField::any(key)?.ty;
     let units = [Unit::parse("K"), Unit::parse(&ty.usual_unit())];

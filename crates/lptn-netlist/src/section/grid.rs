@@ -11,6 +11,7 @@ use crate::place::Wanted;
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::reading::all;
 use crate::section::default::Initial;
+use crate::section::direction::AXIS_OF;
 use crate::section::grid_shape::{Made, SHAPES};
 use crate::section::keys::{CP, DENSITY, MATERIAL_OF};
 use crate::section::node::START;
@@ -46,6 +47,7 @@ pub(crate) const GRID: SectionDeclaration = SectionDeclaration {
         )
         .needed(),
         MATERIAL_OF,
+        AXIS_OF,
         shaped(
             "k",
             "W/(m K), or three",
@@ -165,7 +167,7 @@ impl<'a> Elaboration<'a> {
         let round = self.is_round(&fields);
         let lengths = round.and_then(|round| self.shape(&fields, round));
         let cells = self.cell_counts(&fields);
-        let made = self.substance(&fields);
+        let made = self.substance(&fields, round);
         let own = self.initial(&fields);
         let initial_at = fields.get("T0").or(default.map(|(_, raw)| *raw));
         let initial = own.or_else(|| default.map(|(input, _)| input.clone()));
@@ -241,11 +243,11 @@ impl<'a> Elaboration<'a> {
     }
 
     /// The substance of the grid, and its conductivity in each direction.
-    fn substance(&mut self, fields: &Fields<'a>) -> Option<Made> {
+    fn substance(&mut self, fields: &Fields<'a>, round: Option<bool>) -> Option<Made> {
         let k = fields.get("k").map(|raw| self.conductivities(fields, raw));
         if fields.get("material").is_some() {
             self.refuse_keys(fields, &["density", "cp"], "is that of the material");
-            return self.of_material(fields, k);
+            return self.of_material(fields, k, round);
         }
         if fields.complete && ["k", "density", "cp"].iter().all(|key| fields.get(key).is_none()) {
             let message = format!(
@@ -259,6 +261,7 @@ impl<'a> Elaboration<'a> {
             )));
             return None;
         }
+        self.refuse_keys(fields, &[AXIS_OF.name], "has no effect without `material`");
         for key in ["k", "density", "cp"] {
             self.require(fields, key);
         }
@@ -268,9 +271,14 @@ impl<'a> Elaboration<'a> {
         Some((Substance::Properties { density: density?, cp: cp? }, k?))
     }
 
-    fn of_material(&mut self, fields: &Fields<'a>, k: Option<[Input; 3]>) -> Option<Made> {
+    fn of_material(
+        &mut self,
+        fields: &Fields<'a>,
+        k: Option<[Input; 3]>,
+        round: Option<bool>,
+    ) -> Option<Made> {
         let (name, raw) = self.word(fields, "material")?;
-        let known = self.known_material(fields, name, raw)?;
+        let known = self.known_material(fields, ("material", name), raw)?;
         let needs = [("density", known.density), ("cp", known.cp), ("k", known.k || k.is_some())];
         let missing: Vec<&str> =
             needs.into_iter().filter(|(_, has)| !has).map(|(key, _)| key).collect();
@@ -281,8 +289,13 @@ impl<'a> Elaboration<'a> {
         if !missing.is_empty() {
             return None;
         }
-        let own = || self.builder.conductivity(known.id);
-        let k = k.or_else(|| own().map(|k| [k.clone(), k.clone(), k]))?;
+        let k = match k {
+            Some(k) => {
+                self.refuse_keys(fields, &[AXIS_OF.name], "has no effect: `k` is given");
+                k
+            }
+            None => self.along_axes(fields, (name, known), round?)?,
+        };
         Some((Substance::Material(known.id), k))
     }
 

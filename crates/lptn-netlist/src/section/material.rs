@@ -5,14 +5,16 @@ use lptn_network::{Field, Input, Item, MaterialId, Properties, Size};
 use lptn_units::{Dimension, Quantity, Type, suggest};
 
 use crate::fields::Fields;
-use crate::format::{ABSOLUTE, Role, SectionDeclaration, key, property};
+use crate::format::{ABSOLUTE, Role, SectionDeclaration, Takes, key, property, shaped};
 use crate::library::{self, LibrarySubstance};
 use crate::place::{Place, Wanted};
-use crate::raw::{RawEntry, RawValue};
+use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::section::fan::FAN;
-use crate::section::fluid::FLUID;
+use crate::section::fluid::{FLUID, table};
 use crate::section::keys::{CP, DENSITY, SOURCE_OF};
 use crate::section::lubricant::LUBRICANT;
+use crate::section::winding::WINDING;
+use crate::texture::Texture;
 use crate::work::{Elaboration, Known, stand_in};
 
 pub(crate) const MATERIAL: SectionDeclaration = SectionDeclaration {
@@ -23,6 +25,19 @@ pub(crate) const MATERIAL: SectionDeclaration = SectionDeclaration {
         DENSITY,
         CP,
         property("k", "W/(m K)", "thermal conductivity, in the same way", "\"46.6 W/(m K)\""),
+        property(
+            "k_through",
+            "W/(m K)",
+            "conductivity across layers, of which `k` is that in their plane",
+            "\"0.3 W/(m K)\"",
+        ),
+        shaped(
+            "winding",
+            "table",
+            Takes::Table(&WINDING),
+            "instead of the properties: those of wires in resin",
+            "{ fill = 0.45, wire = \"copper\", resin = \"peek\" }",
+        ),
         key(
             "solidus",
             ABSOLUTE,
@@ -52,10 +67,11 @@ pub(crate) const MATERIAL: SectionDeclaration = SectionDeclaration {
 };
 
 /// The properties, by key.
-const PROPERTIES: [Field; 6] = [
+const PROPERTIES: [Field; 7] = [
     Field::Density,
     Field::SpecificHeat,
     Field::Conductivity,
+    Field::AxialConductivity,
     Field::Solidus,
     Field::Liquidus,
     Field::LatentHeat,
@@ -63,9 +79,48 @@ const PROPERTIES: [Field; 6] = [
 
 impl<'a> Elaboration<'a> {
     pub(crate) fn materials(&mut self) {
-        for entry in self.elements(MATERIAL.name) {
+        let is_winding = |entry: &&RawEntry| match &entry.value.kind {
+            RawKind::Table(table) => table.get(WINDING.name).is_some(),
+            _ => false,
+        };
+        let all = self.elements(MATERIAL.name);
+        // a winding is made of other materials
+        for entry in all.iter().filter(|entry| !is_winding(entry)) {
             self.own_material(entry);
         }
+        for entry in all.iter().filter(is_winding) {
+            self.winding(entry);
+        }
+    }
+
+    fn winding(&mut self, entry: &'a RawEntry) {
+        let made = self.fields(&MATERIAL, entry).and_then(|fields| {
+            let own = fields.declared().iter().map(|key| key.name);
+            let others: Vec<&str> =
+                own.filter(|key| !["winding", "source"].contains(key)).collect();
+            self.refuse_keys(&fields, &others, "follows from the `winding`");
+            let mixture = self.mixture(&fields)?;
+            let source = self.word(&fields, "source").map(|(text, _)| text.to_owned());
+            let properties = Properties {
+                density: Some(mixture.density),
+                cp: Some(mixture.cp),
+                k: Some(mixture.k),
+                k_axis: Some(mixture.k_axis),
+                winding: Some(mixture.winding),
+                melting: None,
+                source,
+            };
+            let id = self.builder.material(&entry.key, properties);
+            self.map.insert(Item::Material(id), Field::Name, entry.key_span.clone());
+            self.note_winding(Item::Material(id), &fields);
+            Some(id)
+        });
+        let Some(id) = made else {
+            self.names.hide_substance(MATERIAL.name, &entry.key);
+            return;
+        };
+        let known = Known { id, density: true, cp: true, k: true, texture: Texture::Wires };
+        self.known.insert(entry.key.clone(), known);
     }
 
     fn own_material(&mut self, entry: &'a RawEntry) {
@@ -81,13 +136,23 @@ impl<'a> Elaboration<'a> {
         let density = property("density", Wanted::constant(Type::of(Dimension::DENSITY)));
         let cp = property("cp", Wanted::own(Type::of(Dimension::SPECIFIC_HEAT)));
         let k = property("k", Wanted::own(Type::of(Dimension::CONDUCTIVITY)));
+        let k_axis = property("k_through", Wanted::own(Type::of(Dimension::CONDUCTIVITY)));
+        let layers = fields.get("k_through").is_some();
+        if layers {
+            self.require(&fields, "k");
+        }
+        let k_axis = k_axis.filter(|_| layers);
         let has = [&density, &cp, &k].map(Option::is_some);
         let melting = self.melting(&fields);
         let source = self.word(&fields, "source").map(|(text, _)| text.to_owned());
-        let id = self.builder.material(&entry.key, Properties { density, cp, k, melting, source });
+        let id = self.builder.material(
+            &entry.key,
+            Properties { density, cp, k, k_axis, winding: None, melting, source },
+        );
         self.note(Item::Material(id), &entry.key_span, &fields, &PROPERTIES);
         let [density, cp, k] = has;
-        self.known.insert(entry.key.clone(), Known { id, density, cp, k });
+        let texture = if layers { Texture::Layers } else { Texture::Even };
+        self.known.insert(entry.key.clone(), Known { id, density, cp, k, texture });
     }
 
     /// The capacity of a node or capacitor: `C`, or `material` with `mass` or `volume`; `None` if
@@ -122,7 +187,7 @@ impl<'a> Elaboration<'a> {
     fn lump(&mut self, fields: &Fields<'a>) -> Option<Input> {
         let size = self.size(fields);
         let (name, raw) = self.required_word(fields, "material")?;
-        let known = self.known_material(fields, name, raw)?;
+        let known = self.known_material(fields, ("material", name), raw)?;
         let size = size?;
         let missing = match size {
             _ if !known.cp => Some("cp"),
@@ -166,7 +231,7 @@ impl<'a> Elaboration<'a> {
     pub(crate) fn known_material(
         &mut self,
         fields: &Fields<'_>,
-        name: &'a str,
+        (key, name): (&str, &'a str),
         raw: &RawValue,
     ) -> Option<Known> {
         self.used.insert((MATERIAL.name, name.to_owned()));
@@ -180,13 +245,15 @@ impl<'a> Elaboration<'a> {
             let own: Vec<&str> =
                 self.elements(MATERIAL.name).iter().map(|entry| entry.key.as_str()).collect();
             let is_fluid = self.elements(FLUID.name).iter().any(|entry| entry.key == name);
-            self.report(unknown(fields, (name, raw), (&own, is_fluid)));
+            self.report(unknown(fields, (key, name, raw), (&own, is_fluid)));
             return None;
         };
         let id = self.builder.material(name, properties(record));
         self.map.insert(Item::Material(id), Field::Name, raw.span.clone());
         let (density, cp, k) = (record.density.is_some(), record.cp.is_some(), record.k.is_some());
-        let known = Known { id, density, cp, k };
+        let layers = record.k_through.is_some();
+        let texture = if layers { Texture::Layers } else { Texture::Even };
+        let known = Known { id, density, cp, k, texture };
         self.known.insert(name.to_owned(), known);
         Some(known)
     }
@@ -244,13 +311,19 @@ impl<'a> Elaboration<'a> {
 }
 
 fn properties(record: &LibrarySubstance) -> Properties {
-    let input = |value: Option<f64>, dimension| {
-        value.map(|value| Quantity { value, deviation: None, ty: Type::of(dimension) }.into())
+    // a lump of a fluid has the constants of the fluid
+    let is_solid = record.temperature.is_none();
+    let input = |key: &str, value: Option<f64>, dimension| {
+        let over_temperature = table(record, key).filter(|_| is_solid);
+        let constant = |value| Quantity { value, deviation: None, ty: Type::of(dimension) }.into();
+        over_temperature.or(value.map(constant))
     };
     Properties {
-        density: input(record.density, Dimension::DENSITY),
-        cp: input(record.cp, Dimension::SPECIFIC_HEAT),
-        k: input(record.k, Dimension::CONDUCTIVITY),
+        density: input("density", record.density, Dimension::DENSITY),
+        cp: input("cp", record.cp, Dimension::SPECIFIC_HEAT),
+        k: input("k", record.k, Dimension::CONDUCTIVITY),
+        k_axis: input("k_through", record.k_through, Dimension::CONDUCTIVITY),
+        winding: None,
         melting: None,
         source: Some(record.source.clone()),
     }
@@ -258,11 +331,11 @@ fn properties(record: &LibrarySubstance) -> Properties {
 
 fn unknown(
     fields: &Fields<'_>,
-    (name, raw): (&str, &RawValue),
+    (key, name, raw): (&str, &str, &RawValue),
     (own, is_fluid): (&[&str], bool),
 ) -> Diagnostic {
     let message =
-        format!("no material named `{name}`, which {} refers to", fields.owner.field("material"));
+        format!("no material named `{name}`, which {} refers to", fields.owner.field(key));
     let problem = Diagnostic::error("netlist::unknown_material", message)
         .at(raw.span.clone(), "neither in [material] nor in the library");
     let shipped =

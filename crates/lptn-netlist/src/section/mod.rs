@@ -6,6 +6,7 @@ mod conductor;
 mod control;
 mod curves;
 mod default;
+mod direction;
 mod end;
 mod fan;
 mod fluid;
@@ -31,6 +32,7 @@ mod state;
 mod stream_along;
 mod table;
 mod top;
+mod winding;
 
 pub(crate) use control::{CONTROL, narrow};
 pub(crate) use default::{Default, Initial};

@@ -8,6 +8,7 @@ use lptn_units::{Expression, Quantity, Type, suggest};
 use crate::fields::Fields;
 use crate::place::{Place, Wanted};
 use crate::raw::{RawKind, RawValue};
+use crate::section::direction::DIRECTION_OF;
 use crate::section::fluid::UsedFluid;
 use crate::section::forms::{begun, check_forms};
 use crate::section::keys::{AT, LUBRICANT_OF};
@@ -63,6 +64,9 @@ impl<'a> Elaboration<'a> {
         let material = declared.find(|field| field.property == Some(Substance::Material));
         if let Some(field) = material {
             self.problems.extend(check_forms(fields, &[&["material"], &[field.key]]));
+            if fields.get("material").is_none() {
+                self.refuse_keys(fields, &[DIRECTION_OF.name], "has no effect without `material`");
+            }
         }
         let fluid = self.film_fluid(fields, law);
         let own = path.values.iter().filter(|value| law.field(value.field.key).is_some());
@@ -238,13 +242,13 @@ impl<'a> Elaboration<'a> {
     /// The conductivity of the material.
     fn property_of_material(&mut self, fields: &Fields<'a>) -> Option<Input> {
         let (name, raw) = self.word(fields, "material")?;
-        let known = self.known_material(fields, name, raw)?;
+        let known = self.known_material(fields, ("material", name), raw)?;
         if !known.k {
             let problem = self.without_property(fields, (name, raw), known.id, "k");
             self.report(problem);
             return None;
         }
-        self.builder.conductivity(known.id)
+        self.directed(fields, (name, known))
     }
 
     /// True if a word is similar to one that may replace a number in a field; this is reported.

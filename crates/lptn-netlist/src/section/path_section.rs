@@ -7,6 +7,7 @@ use lptn_network::Context;
 use lptn_units::{Type, format_number};
 
 use crate::format::{KeyDeclaration, Role, SectionDeclaration, Takes, shaped, text, words};
+use crate::section::direction::DIRECTION_OF;
 use crate::section::keys::{AT, FLUID_OF, LUBRICANT_OF, MATERIAL_OF};
 use crate::section::path_law::{count, counts, types};
 
@@ -106,7 +107,7 @@ fn keys(kind: Kind, values: &[PathValue]) -> Vec<KeyDeclaration> {
         let of_fluid = laws().any(|law| law.declaration().carries.is_of_fluid());
         let substance = match field.property {
             _ if of_fluid => &[STREAMS][..],
-            Some(Substance::Material) => &[MATERIAL_OF],
+            Some(Substance::Material) => &[MATERIAL_OF, DIRECTION_OF],
             Some(Substance::Fluid) => &[FLUID_OF],
             Some(Substance::Lubricant) => &[LUBRICANT_OF, AT],
             None => &[],

@@ -65,7 +65,7 @@ impl<'a> Elaboration<'a> {
             let at = names.iter().position(|known| *known == name)?;
             Some((at, text.starts_with('-')))
         };
-        let read = [a, b].map(|raw| axis(raw));
+        let read = [a, b].map(axis);
         if let [Some(a), Some(b)] = read
             && a.0 != b.0
         {

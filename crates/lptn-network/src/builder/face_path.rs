@@ -152,9 +152,7 @@ impl NetworkBuilder {
             let names = [a, b].map(|at| grid(at).face_name(at.face));
             return Some(BuildErrorKind::FaceShapes { item, faces: [a, b], names });
         }
-        if kind(a).is_none() {
-            return None;
-        }
+        kind(a)?;
         let cells = |at: GridFace| at.face.along().map(|axis| grid(at).cells[axis]);
         let name = |at: GridFace| grid(at).face_name(at.face);
         let (cells, names) = ([cells(a), cells(b)], [name(a), name(b)]);

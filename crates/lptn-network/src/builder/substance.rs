@@ -7,7 +7,7 @@ use lptn_units::{Dimension, Type};
 use crate::builder::NetworkBuilder;
 use crate::error::BuildErrorKind;
 use crate::id::{Field, FluidId, Item, LawField, MaterialId, NodeId};
-use crate::parts::substance::{Fluid, Material, Melting};
+use crate::parts::substance::{Fluid, Material, Melting, Winding};
 use crate::value::{Input, Lump, Size, Value};
 
 /// The properties of a material as the builder takes them.
@@ -17,8 +17,12 @@ pub struct Properties {
     pub density: Option<Input>,
     /// Specific heat capacity.
     pub cp: Option<Input>,
-    /// Thermal conductivity.
+    /// Thermal conductivity; of layers in their plane, of wires across them.
     pub k: Option<Input>,
+    /// Thermal conductivity along its axis, if it differs: across layers, along wires.
+    pub k_axis: Option<Input>,
+    /// The wires that it is made of, if it is a winding.
+    pub winding: Option<Winding<Input>>,
     /// Its melting, if it melts.
     pub melting: Option<Melting<Input>>,
     /// Source of the numbers.
@@ -37,17 +41,23 @@ impl NetworkBuilder {
         let density = value(Field::Density, properties.density, Dimension::DENSITY);
         let cp = value(Field::SpecificHeat, properties.cp, Dimension::SPECIFIC_HEAT);
         let k = value(Field::Conductivity, properties.k, Dimension::CONDUCTIVITY);
-        let melting = properties.melting.map(|m| {
-            let mut value =
-                |field, input, ty| self.typed((name, Item::Material(id), field), input, ty);
-            Melting {
-                solidus: value(Field::Solidus, m.solidus, Type::ABSOLUTE_TEMPERATURE),
-                liquidus: value(Field::Liquidus, m.liquidus, Type::ABSOLUTE_TEMPERATURE),
-                heat: value(Field::LatentHeat, m.heat, LATENT_HEAT),
-            }
+        let k_axis = value(Field::AxialConductivity, properties.k_axis, Dimension::CONDUCTIVITY);
+        let mut value = |field, input, ty| self.typed((name, Item::Material(id), field), input, ty);
+        let winding = properties.winding.map(|w| Winding {
+            fill: value(Field::Fill, w.fill, Type::SCALAR),
+            enamel_fill: value(Field::EnamelFill, w.enamel_fill, Type::SCALAR),
+            wire: w.wire,
+            enamel: w.enamel,
+            resin: w.resin,
+        });
+        let melting = properties.melting.map(|m| Melting {
+            solidus: value(Field::Solidus, m.solidus, Type::ABSOLUTE_TEMPERATURE),
+            liquidus: value(Field::Liquidus, m.liquidus, Type::ABSOLUTE_TEMPERATURE),
+            heat: value(Field::LatentHeat, m.heat, LATENT_HEAT),
         });
         let source = properties.source;
-        let material = Material { name: name.to_owned(), density, cp, k, melting, source };
+        let name_of = name.to_owned();
+        let material = Material { name: name_of, density, cp, k, k_axis, winding, melting, source };
         self.parts.materials.push(material);
         self.check_name(name, Item::Material(id));
         id
@@ -62,6 +72,18 @@ impl NetworkBuilder {
             self.error(&name, BuildErrorKind::NotAFraction { item, field, value: share });
         }
         self.parts.nodes[node.index()].body_mut().molten = share;
+    }
+
+    /// A material with its properties.
+    pub fn properties_of(&self, material: MaterialId) -> &Material {
+        &self.parts.materials[material.index()]
+    }
+
+    /// The conductivity of a material along its axis, if it differs, as
+    /// [`NetworkBuilder::conductivity`].
+    pub fn axial_conductivity(&self, material: MaterialId) -> Option<Input> {
+        let value = self.parts.materials[material.index()].k_axis.clone()?;
+        Some(Input { value, ty: Type::of(Dimension::CONDUCTIVITY), deviation: None, lump: None })
     }
 
     /// The conductivity of a material, for a [`Path`](crate::Path) of conduction; if it depends on

@@ -47,7 +47,7 @@ impl Network {
     }
 
     /// Density in kg/m^3, specific heat in J/(kg K) or conductivity in W/(m K) of a material at a
-    /// temperature in K; `None` if it is not known. `scope` is any [`Network::evaluation`].
+    /// temperature in K, the least if it depends on the direction; `None` if it is not known. `scope` is any [`Network::evaluation`].
     pub fn property(
         &self,
         (id, field): (MaterialId, Field),
@@ -61,7 +61,10 @@ impl Network {
             Field::Conductivity => material.k.as_ref(),
             _ => None,
         };
-        self.property_of(value?, temperature, scope)
+        let found = self.property_of(value?, temperature, scope)?;
+        let axial = material.k_axis.as_ref().filter(|_| field == Field::Conductivity);
+        let axial = axial.and_then(|value| self.property_of(value, temperature, scope));
+        Some(axial.map_or(found, |axial| found.min(axial)))
     }
 
     /// A value that may depend on its own temperature, at that temperature in K, in SI units;

@@ -6,15 +6,23 @@ use crate::error::BuildErrorKind;
 use crate::id::{CapacitorId, Field, FluidId, Item, LimitId, MaterialId, NodeId};
 use crate::numbers::Work;
 use crate::parts::element::Node;
+use crate::parts::substance::Material;
 use crate::value::Value;
 use lptn_laws::Range;
+
+/// pi/sqrt(12).
+const CLOSE_PACKED: f64 = 0.906_899_682_117_109;
 
 impl<'a> Work<'a> {
     pub(crate) fn check_materials(&mut self) {
         for (i, material) in self.parts.materials.iter().enumerate() {
             let item = Item::Material(MaterialId::from_len(i));
-            let properties =
-                [(Field::SpecificHeat, &material.cp), (Field::Conductivity, &material.k)];
+            self.check_winding(item, material);
+            let properties = [
+                (Field::SpecificHeat, &material.cp),
+                (Field::Conductivity, &material.k),
+                (Field::AxialConductivity, &material.k_axis),
+            ];
             if let Some(value) = &material.density {
                 self.constant(item, Field::Density, value, Range::Positive);
             }
@@ -33,6 +41,17 @@ impl<'a> Work<'a> {
                     self.error(item, BuildErrorKind::Melting { item, solidus, liquidus });
                 }
             }
+        }
+    }
+
+    /// Round wires that touch each other in a hexagonal order fill pi/sqrt(12) of the volume.
+    fn check_winding(&mut self, item: Item, material: &Material) {
+        let Some(winding) = &material.winding else { return };
+        let fill = self.constant(item, Field::Fill, &winding.fill, Range::Positive);
+        let enamel =
+            self.constant(item, Field::EnamelFill, &winding.enamel_fill, Range::NotNegative);
+        if fill + enamel > CLOSE_PACKED {
+            self.error(item, BuildErrorKind::Overfilled { item, share: fill + enamel });
         }
     }
 

@@ -12,12 +12,32 @@ pub struct Material {
     pub density: Option<Value>,
     /// Specific heat capacity in J/(kg K).
     pub cp: Option<Value>,
-    /// Thermal conductivity in W/(m K).
+    /// Thermal conductivity in W/(m K); of layers in their plane, of wires across them.
     pub k: Option<Value>,
+    /// Thermal conductivity along its axis in W/(m K), if it differs: across layers, along wires.
+    pub k_axis: Option<Value>,
+    /// The wires that it is made of, if it is a winding.
+    pub winding: Option<Winding>,
     /// Its melting, if it melts.
     pub melting: Option<Melting>,
     /// Source of the numbers.
     pub source: Option<String>,
+}
+
+/// The parts of a winding, from which its properties were computed. The parts are names of
+/// materials.
+#[derive(Clone, Debug)]
+pub struct Winding<T = Value> {
+    /// Share of the conductor in the volume.
+    pub fill: T,
+    /// Share of the enamel in the volume.
+    pub enamel_fill: T,
+    /// Material of the conductor.
+    pub wire: String,
+    /// Material of the enamel, if there is any.
+    pub enamel: Option<String>,
+    /// Material between the wires.
+    pub resin: String,
 }
 
 /// A change of phase: latent heat, taken up evenly from the solidus to the liquidus.

@@ -145,6 +145,7 @@ fn describe(record: &LibrarySubstance, text: &mut Text) {
         ("density", record.density, "kg/m^3"),
         ("specific heat cp", record.cp, "J/(kg K)"),
         ("conductivity k", record.k, "W/(m K)"),
+        ("k through plane", record.k_through, "W/(m K)"),
         ("temperature", record.temperature, "K"),
     ];
     for (label, value, unit) in lines {
@@ -160,13 +161,14 @@ fn rows(found: &Found) -> Vec<Vec<String>> {
         "density [kg/m^3]",
         "cp [J/(kg K)]",
         "k [W/(m K)]",
+        "k_through [W/(m K)]",
         "T [K]",
         "title",
         "source",
     ];
     let cell = |value: Option<f64>| value.map_or(String::new(), lptn_units::format_number);
     let row = |kind: &str, r: &LibrarySubstance| {
-        let numbers = [r.density, r.cp, r.k, r.temperature].map(cell);
+        let numbers = [r.density, r.cp, r.k, r.k_through, r.temperature].map(cell);
         let words = [r.name.clone(), kind.to_owned()];
         words.into_iter().chain(numbers).chain([r.title.clone(), r.source.clone()]).collect()
     };
@@ -175,7 +177,7 @@ fn rows(found: &Found) -> Vec<Vec<String>> {
         let [nu_40, nu_100] = oil.viscosity.map(|nu| significant(nu * 1e6, 4));
         let title =
             format!("{}, {nu_40} mm^2/s at 40 degC, {nu_100} mm^2/s at 100 degC", oil.title);
-        let numbers = [Some(oil.density), None, None, None].map(cell);
+        let numbers = [Some(oil.density), None, None, None, None].map(cell);
         let words = [oil.name.clone(), "lubricant".to_owned()];
         words.into_iter().chain(numbers).chain([title, oil.source.clone()]).collect()
     };
@@ -208,6 +210,7 @@ fn members(records: &[&LibrarySubstance]) -> Value {
             "density": scalar(record.density, "kg/m^3"),
             "cp": scalar(record.cp, "J/(kg K)"),
             "k": scalar(record.k, "W/(m K)"),
+            "k_through": scalar(record.k_through, "W/(m K)"),
             "T": scalar(record.temperature, "K"),
             "source": record.source,
         });
