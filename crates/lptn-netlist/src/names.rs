@@ -264,7 +264,7 @@ impl Names {
     }
 }
 
-/// Results of a branch besides its mass flow: values that may stay unused.
+/// Results of a branch in addition to its mass flow: values that may stay unused.
 const BRANCH_RESULTS: [&str; 3] = ["volume_flow", "Re", "power"];
 
 fn is_branch_result(name: &str) -> bool {

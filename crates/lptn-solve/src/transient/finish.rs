@@ -1,0 +1,45 @@
+//! The solution of a run that has ended.
+
+use lptn_integrate::Statistics;
+
+use crate::error::TransientError;
+use crate::events::Switching;
+use crate::guard::Guard;
+use crate::solution::{RunStatus, Solution};
+use crate::state::State;
+use crate::transient::Run;
+
+impl Run<'_> {
+    pub(super) fn finish(mut self, end: RunStatus) -> Result<Solution, TransientError> {
+        let (growth, system) = (self.errors_grow(), self.recorder.system());
+        let unresolved = self.guard.as_ref().and_then(Guard::unresolved);
+        let mut stored = vec![0.0; system.network().nodes().len()];
+        let changes = self.integrator.state().iter().zip(&self.initial).zip(system.capacity());
+        for (((now, before), capacity), id) in changes.zip(system.states()) {
+            if system.network().is_thermal(*id) {
+                stored[id.index()] = capacity * (now - before);
+            }
+        }
+        let pipes = self.pipes.as_ref().map(|pipes| pipes.borrow());
+        for (pipe, heat) in
+            system.network().pipes().iter().zip(pipes.iter().flat_map(|pipes| pipes.stored(system)))
+        {
+            stored[pipe.node.index()] = heat;
+        }
+        let contents = pipes.map_or_else(Vec::new, |pipes| pipes.contents());
+        let statistics: Statistics = self.integrator.statistics();
+        let integrals = self.integrator.quadratures().map_err(TransientError::Integrator)?;
+        let integrals = integrals.to_vec();
+        let at_the_end = (self.integrator.time(), self.integrator.state());
+        let work = self.recorder.at_state(at_the_end);
+        let books = self.books.close(system, work, &integrals, (stored, self.tolerance));
+        let controls = self.switching.as_ref().map_or_else(Vec::new, Switching::controls);
+        let events = self.switching.map_or_else(Vec::new, |switching| switching.events);
+        let stood = self.recorder.branch().to_vec();
+        let end_state = State::of_carried(self.integrator.state().to_vec()).standing(stood);
+        let end_state = end_state.filled(contents);
+        let solution = self.recorder.into_solution(books, (statistics, events), end);
+        let (method, made_up) = (Some(self.method), self.grows);
+        Ok(Solution { end_state, controls, method, growth, made_up, unresolved, ..solution })
+    }
+}
