@@ -8,6 +8,7 @@ use crate::support;
 use lptn::prelude::*;
 use lptn_netlist::Netlist;
 use lptn_network::ParameterId;
+use lptn_solve::sensitive_run;
 use support::{close, parsed, settled, transient};
 
 /// A die of 10 x 10 mm on a copper spreader of 30 x 30 mm.
@@ -101,9 +102,10 @@ fn the_common_area_is_an_answer_to_the_warning() {
 /// Slopes in K/m by the matrices, moved by 1 um to both sides.
 #[test]
 fn slopes_over_the_place_of_a_face() {
-    let (netlist, system) = parsed(&DIE.replace("100 ms", "3 s"));
+    let (netlist, _) = parsed(&DIE.replace("100 ms", "3 s"));
     let ids: Vec<ParameterId> = netlist.network.parameter_ids().collect();
-    let run = transient(&netlist).tolerance(1e-7).sensitivities(&ids).solve(&system).unwrap();
+    let settings = transient(&netlist).tolerance(1e-7);
+    let run = sensitive_run(&netlist.network, &settings, &ids).unwrap_or_else(|e| panic!("{e}"));
     for (node, slope) in
         [("die[1,1]", 355.62794), ("die[5,3]", 2217.27564), ("spreader[13,10]", 3360.27360)]
     {

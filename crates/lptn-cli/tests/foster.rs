@@ -228,5 +228,9 @@ fn a_device_hangs_on_a_heat_sink() {
     }
     let wrong = device.replace(", series = true", "");
     folder.write("igbt.toml", &wrong);
-    folder.run(&["check", "inverter.toml"]).exits(1).says("foster_series").says("series = true");
+    folder
+        .run(&["check", "inverter.toml"])
+        .exits(1)
+        .prints("foster_series")
+        .prints("series = true");
 }

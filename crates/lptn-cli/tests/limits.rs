@@ -160,7 +160,7 @@ fn materials_are_listed_with_their_sources() {
     assert!(csv.contains("iso_vg_32,lubricant,902,,,,"), "{csv}");
     assert!(
         csv.starts_with(
-            "name,kind,density [kg/m^3],cp [J/(kg K)],k [W/(m K)],T [K],title,source\n"
+            "name,kind,density [kg/m^3],cp [J/(kg K)],k [W/(m K)],k_through [W/(m K)],T [K],title,source\n"
         )
     );
     folder.run(&["materials", "steel_8260"]).exits(2).says("did you mean `steel_8620`?");

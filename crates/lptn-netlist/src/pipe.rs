@@ -16,6 +16,7 @@ use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::section::{Initial, NODE, check_forms};
 use crate::template::Structure;
 use crate::work::Elaboration;
+use crate::written_out::here;
 
 pub(crate) const PIPE: SectionDeclaration = SectionDeclaration {
     name: "pipe",
@@ -69,7 +70,7 @@ pub(crate) fn expand(raw: &mut RawNetlist, structure: &mut Arc<Structure>) -> Ve
         let mut told = Vec::new();
         let owner = Owner::element(PIPE.name, &entry.key);
         let fields = Fields::of(&PIPE, owner, entry, &mut told);
-        match fields.and_then(|fields| elements(entry, &fields)) {
+        match fields.and_then(|fields| elements((structure, entry), &fields)) {
             Some(made) => made.into_iter().for_each(|(section, entry)| raw.push(section, entry)),
             None => Arc::make_mut(structure).lose(&entry.key),
         }
@@ -78,12 +79,15 @@ pub(crate) fn expand(raw: &mut RawNetlist, structure: &mut Arc<Structure>) -> Ve
 }
 
 /// The elements of a pipe with their sections; `None` if something is missing.
-fn elements(entry: &RawEntry, fields: &Fields<'_>) -> Option<Vec<(&'static str, RawEntry)>> {
+fn elements(
+    (structure, entry): (&Structure, &RawEntry),
+    fields: &Fields<'_>,
+) -> Option<Vec<(&'static str, RawEntry)>> {
     let (from, to) = (fields.get("from")?, fields.get("to")?);
     let &(content, dimension, flow) = CONTENTS.iter().find(|(key, ..)| fields.has(key))?;
     let (amount, flow) = (fields.get(content)?, fields.get(flow)?);
     let at = &entry.key_span;
-    let name = RawValue::text(entry.key.clone(), at);
+    let name = RawValue::text(here(structure, entry).to_owned(), at);
     let stream = |from: &RawValue, to: &RawValue| {
         let carried = ["mcp", "flow", "flow_T", "fluid"].into_iter();
         let carried = carried.filter_map(|key| Some((key, fields.get(key)?.clone())));

@@ -21,6 +21,7 @@ use lptn_units::Type;
 
 use crate::linearised::{Linearised, LinearisedError};
 use crate::snapshot::Snapshot;
+use crate::standing::is_counter;
 
 lptn_units::errors! {
 /// Reason why a temperature has no adjoint.
@@ -85,7 +86,9 @@ impl<'a> Adjoint<'a> {
         node: NodeId,
     ) -> Result<Self, AdjointError> {
         let linear = Linearised::near(system, state)?;
-        let (pattern, values) = linear.conductances();
+        let (pattern, mut values) = linear.conductances();
+        let counters = (0..system.unknowns().len()).filter(|i| is_counter(system, *i));
+        counters.for_each(|counter| values[pattern.diagonal()[counter]] = 1.0);
         let mut rise = {
             let mut work = system.workspace();
             let mut flow = vec![0.0; system.unknowns().len()];

@@ -203,7 +203,7 @@ impl<'a> Checker<'a> {
 
     fn go_to_start(&self, work: &mut Workspace, start: f64) -> Result<(), NewtonError> {
         self.system.read_inputs(work, start, just_after(start)).map_err(NewtonError::Input)?;
-        let mut unfold = Unfold::new(self.system)?;
+        let mut unfold = Unfold::at_start(self.system)?;
         let temperatures = unfold.temperatures(work, &self.system.initial())?;
         self.system.recover(work, temperatures);
         Ok(())

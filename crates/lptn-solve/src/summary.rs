@@ -67,7 +67,7 @@ impl Summary {
         let unsolved = |error| Unsolved::new(system, error);
         let inputs = system.read_inputs(&mut work, start, just_after(start));
         inputs.map_err(|error| unsolved(NewtonError::Input(error)))?;
-        let mut unfold = Unfold::new(system).map_err(unsolved)?;
+        let mut unfold = Unfold::at_start(system).map_err(unsolved)?;
         let temperatures = unfold.temperatures(&mut work, &system.initial()).map_err(unsolved)?;
         system.recover(&mut work, temperatures);
         let initial = system.node_temperatures(&work);

@@ -5,6 +5,7 @@
 //! C0` in K, so that heat is never lost to the approximation of a changing capacity. Algebraic
 //! unknowns are solved for.
 
+use std::cell::RefCell;
 use std::rc::Rc;
 
 use lptn_assembly::{ThermalSystem, Workspace};
@@ -13,7 +14,7 @@ use lptn_network::{Enthalpy, Field, InputError, InputProblem, Item};
 use crate::between::SHORT;
 use crate::newton::Newton;
 use crate::newton_error::NewtonError;
-use crate::pipe::Shared;
+use crate::pipe::{Pipes, Shared};
 
 /// Temperatures of all unknowns of a system, from the integrator's variables.
 pub(crate) struct Unfold<'a> {
@@ -79,6 +80,15 @@ impl<'a> Unfold<'a> {
             leaps: true,
             pipes: None,
         })
+    }
+
+    /// The same at the start of the network: pipes have the content of their start.
+    pub(crate) fn at_start(system: &'a ThermalSystem) -> Result<Self, NewtonError> {
+        let mut unfold = Self::new(system)?;
+        if let Some(pipes) = Pipes::of(system, &[], 0.0) {
+            unfold.read_pipes(&Rc::new(RefCell::new(pipes)))?;
+        }
+        Ok(unfold)
     }
 
     /// Takes the temperatures of pipes from their content.

@@ -7,10 +7,10 @@ use std::f64::consts::TAU;
 use crate::elements_helper::Random;
 
 use lptn_assembly::ThermalSystem;
-use lptn_network::{IntegratorChoice, Network, Time};
+use lptn_network::{IntegratorChoice, Network, NoTangents, Time};
 use lptn_solve::{
-    Linearised, LinearisedError, Method, Periodic, PeriodicError, Proceed, Selection, Solution,
-    State, StateRates, SteadyState, Table, Transient,
+    ExactSolution, Linearised, LinearisedError, Method, Periodic, PeriodicError, Proceed,
+    Selection, Solution, State, StateRates, SteadyState, Table, Transient, sensitive_run,
 };
 use lptn_units::Unit;
 
@@ -379,4 +379,62 @@ heater = { into = "tank", P = "300 W" }
         let (c, d) = rates(t + 0.5 * h * a, passed + 0.5 * h * b);
         (t, passed, time) = (t + h * c, passed + h * d, time + h);
     }
+}
+
+/// Temperatures after 200 s differentiate by the content only through the history of the fluid.
+#[test]
+fn derivatives_through_a_pipe_are_differences_of_runs() {
+    let text = format!(
+        "{}\n[param]\nV = \"41.8 kJ/K\"\n",
+        TANK.replace("\"41.8 kJ/K\" }\n[adv", "\"V\" }\n[adv")
+    );
+    let network = network(&text);
+    let content = network.parameter("V").unwrap();
+    assert!(matches!(network.tangents(&[content]), Err(NoTangents::Pipe { .. })));
+    let settings = until(&[0.0, 200.0], 1e-7);
+    let run = sensitive_run(&network, &settings, &[content]).unwrap_or_else(|e| panic!("{e}"));
+    let node = network.node("tank").unwrap();
+    let found = run.sensitivity(content, node).unwrap()[1];
+    // T = 60 - 40 exp(-(418 W/K t - V) / 41.8 kJ/K)
+    near(found * 41_800.0, -40.0 * (-1.0_f64).exp(), 1e-3, "by the content");
+}
+
+/// A flow may begin at zero: the fluid at the end of the pipe is known.
+#[test]
+fn a_flow_may_begin_at_rest() {
+    let text =
+        TANK.replace("mcp = \"418 W/K\", C", "mcp = \"if(t < 50 [s], 0 [W/K], 418 [W/K])\", C");
+    let solution = run(&network(&text), &[0.0, 149.0, 151.0], 1e-5);
+    for (found, right) in column(&solution, "supply.T").iter().zip([20.0, 20.0, 60.0]) {
+        near(*found, right, 1e-9, "the fluid that leaves");
+    }
+}
+
+#[test]
+fn a_pipe_may_be_a_part_of_a_template() {
+    let text = r#"
+format = 1
+[default]
+T0 = "20 degC"
+[boundary]
+hot = { T = "60 degC" }
+[template.line]
+port = ["source"]
+[template.line.node]
+n = { C = "1 kJ/K" }
+[template.line.pipe]
+p = { from = "source", to = "n", mcp = "10 W/K", C = "100 J/K" }
+[use.line]
+template = "line"
+count = 2
+connect = { source = "hot" }
+"#;
+    let solution = run(&network(text), &[0.0, 60.0], 1e-5);
+    let right = 60.0 - 40.0 * (-0.5_f64).exp();
+    near(column(&solution, "line[2].n.T")[1], right, 1e-4, "after 10 s");
+}
+
+#[test]
+fn the_exact_solution_knows_no_pipes() {
+    assert!(ExactSolution::solve(&network(TANK), 0.0, &[0.0, 60.0]).is_err());
 }

@@ -80,7 +80,8 @@ pub(super) fn pipe(out: &mut WrittenOut<'_>) -> String {
 /// pressure at rest e, V = 2 e/(a s + sqrt(a^2 s^2 + 4 b |e|)), which is as exact for a small b.
 pub(super) fn parabola(out: &mut WrittenOut<'_>, given: [bool; 2]) -> Option<String> {
     let h = out.here;
-    let excess = format!("{h}.p_0 * {h}.speed^2 + {h}.dp");
+    // the root refuses a speed below 0
+    let excess = format!("{h}.p_0 * sqrt({h}.speed)^4 + {h}.dp");
     out.value("excess", super::PRESSURE, excess);
     Some(match given {
         [false, false] => return None,

@@ -39,7 +39,8 @@ pub(super) fn curve(
         }
         sum += &format!(" + {} * {share}", flow(v1 - v0));
     }
-    Some(format!("{h}.speed * ({sum})"))
+    // the root refuses a speed below 0
+    Some(format!("sqrt({h}.speed)^2 * ({sum})"))
 }
 
 fn literal(value: f64, dimension: Dimension) -> String {

@@ -235,6 +235,11 @@ impl FacePath {
         (self.first as usize..self.end as usize).map(ConductorId::from_len)
     }
 
+    /// True if parameters change the lengths or the place of the two faces that it joins.
+    pub(crate) fn is_moving(&self) -> bool {
+        matches!(self.joint, Joint::Moving(_))
+    }
+
     /// The faces it ends at: one or two.
     pub fn faces(&self) -> impl Iterator<Item = GridFace> + use<> {
         [self.from, self.to].into_iter().filter_map(|terminal| match terminal {

@@ -66,6 +66,7 @@ impl Network {
             parameters.iter().copied().map(Variable::Parameter).collect();
         let influence = Influence::new(self, &variables);
         refusal::check_events(&influence)?;
+        refusal::check_pipes(self)?;
         self.tangents_of(&influence, &variables)
     }
 
@@ -85,6 +86,7 @@ impl Network {
         variables: &[Variable],
     ) -> Result<Tangents, NoTangents> {
         refusal::check_fluids(self, influence)?;
+        refusal::check_faces(self, influence)?;
         let chunks = variables.chunks(PASS);
         let mut passes: Vec<Pass> = chunks.map(|chunk| Pass::new(self, chunk, variables)).collect();
         refusal::check_rings(self, influence, &mut passes)?;

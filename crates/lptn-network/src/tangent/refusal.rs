@@ -6,7 +6,7 @@ use lptn_units::Problem;
 
 use super::Pass;
 use super::influence::Influence;
-use crate::id::{FluidId, GridId, Item, NodeId};
+use crate::id::{FacePathId, FluidId, GridId, Item, NodeId};
 use crate::network::Network;
 use crate::parts::shape::Shape;
 
@@ -31,6 +31,18 @@ pub enum NoTangents for |say: &dyn Fn(Item, &str) -> String| at Item {
     /// the parameters. A run finds this; the form of the network does not show it.
     Leaps = "sensitivity::leaps", at None,
         says "a massless node jumps, at a time that moves with the parameters".to_owned(),
+        help None;
+    /// The fluid that leaves a pipe entered earlier.
+    Pipe { node: NodeId } = "sensitivity::pipe", at Some(Item::Node(*node)),
+        says format!("the fluid in {} entered earlier", say(Item::Node(*node), "a pipe")),
+        help None;
+    /// The place or size of a face on another one depends on a parameter: the common areas of cells
+    /// bend where their borders meet.
+    Faces { path: FacePathId } = "sensitivity::faces", at Some(Item::FacePath(*path)),
+        says format!(
+            "the faces that {} joins move with a parameter",
+            say(Item::FacePath(*path), "a path")
+        ),
         help None;
     /// The melting of a node changes by more than its size.
     Melting { node: NodeId } = "sensitivity::melting", at Some(Item::Node(*node)),
@@ -70,6 +82,29 @@ pub(super) fn check_fluids(network: &Network, influence: &Influence<'_>) -> Resu
     let mut changing = varying.filter(|(id, _)| influence.value(&network.fluids()[id.index()].cp));
     match changing.next() {
         Some((fluid, _)) => Err(NoTangents::Fluid { fluid }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses runs with pipes: their fluid has a history.
+pub(super) fn check_pipes(network: &Network) -> Result<(), NoTangents> {
+    match network.pipes().first() {
+        Some(pipe) => Err(NoTangents::Pipe { node: pipe.node }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses parameters that move faces on one another.
+pub(super) fn check_faces(network: &Network, influence: &Influence<'_>) -> Result<(), NoTangents> {
+    let paths = network.face_path_ids().zip(network.face_paths());
+    let mut moved = paths.filter(|(_, path)| {
+        let blocks = network.parts.joined_blocks(path).into_iter().flatten();
+        let sizes = blocks.flat_map(|at| network.grids()[at.grid.index()].shape.values());
+        let mut values = sizes.chain(path.placement.offset.iter().flatten());
+        path.is_moving() && values.any(|value| influence.value(value))
+    });
+    match moved.next() {
+        Some((path, _)) => Err(NoTangents::Faces { path }),
         None => Ok(()),
     }
 }

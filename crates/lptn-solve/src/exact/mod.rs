@@ -121,6 +121,10 @@ impl ExactSolution {
         if let Some(kind) = EventKind::switching(network).next() {
             return Err(ExactError::Switches { name: kind.name(network) });
         }
+        if let Some(pipe) = network.pipes().first() {
+            let name = network.nodes()[pipe.node.index()].name.clone();
+            return Err(ExactError::NotLinear { name });
+        }
         let breakpoints = network.breakpoints(start, stop)?;
         let reduced = Reduced::with_streams(network)?;
         let mut rows = Rows::new(network, &reduced, (start, times))?;
