@@ -148,7 +148,7 @@ fn first_turn(step: (f64, f64), values: &[f64; POINTS]) -> Option<f64> {
     let largest = changes.clone().fold(0.0, |most: f64, change| most.max(change.abs()));
     let signs: Vec<f64> = changes.filter(|change| change.abs() > 1e-9 * largest).collect();
     let first = signs.first()?.signum();
-    let turns = signs.iter().any(|change| change.signum() != first);
+    let turns = signs.iter().any(|change| change * first < 0.0);
     if !turns {
         return None;
     }
