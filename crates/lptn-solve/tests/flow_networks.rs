@@ -266,14 +266,10 @@ fn junctions_of_random_networks_balance() {
             branches.push((from, to, laminar, size));
         }
         let mut drawn = vec![0.0; junctions + 1];
-        for j in 1..=junctions {
-            drawn[j] = uniform(-1.0, 1.0);
-            writeln!(
-                text,
-                "d{j} = {{ from = \"j{j}\", to = \"j0\", flow = \"{} kg/s\" }}",
-                drawn[j]
-            )
-            .unwrap();
+        for (j, drawn) in drawn.iter_mut().enumerate().skip(1) {
+            *drawn = uniform(-1.0, 1.0);
+            writeln!(text, "d{j} = {{ from = \"j{j}\", to = \"j0\", flow = \"{drawn} kg/s\" }}")
+                .unwrap();
         }
         let names: Vec<String> = (0..=junctions).map(|j| format!("j{j}")).collect();
         let names: Vec<&str> = names.iter().map(String::as_str).collect();

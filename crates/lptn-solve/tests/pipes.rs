@@ -27,8 +27,7 @@ fn until(times: &[f64], tolerance: f64) -> Transient {
 
 fn run(network: &Network, times: &[f64], tolerance: f64) -> Solution {
     let system = ThermalSystem::assemble(network).unwrap();
-    let solution = until(times, tolerance).solve(&system).unwrap_or_else(|e| panic!("{e}"));
-    solution
+    until(times, tolerance).solve(&system).unwrap_or_else(|e| panic!("{e}"))
 }
 
 fn column(solution: &Solution, name: &str) -> Vec<f64> {
@@ -158,7 +157,7 @@ line = { from = "left", to = "right", mcp = "100 [W/K] * sin(2 * pi * t / 60 [s]
 "#;
     let passed = |t: f64| 100.0 * 60.0 / TAU * (1.0 - (TAU * t / 60.0).cos());
     let most = passed(30.0);
-    let times: Vec<f64> = (1..60).map(f64::from).filter(|t| *t != 30.0).collect();
+    let times: Vec<f64> = (1..60).filter(|t| *t != 30).map(f64::from).collect();
     let times: Vec<f64> = [0.0].into_iter().chain(times).collect();
     let solution = run(&network(text), &times, 1e-6);
     for (&time, found) in times.iter().zip(column(&solution, "line.T")).skip(1) {

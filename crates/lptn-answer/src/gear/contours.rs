@@ -40,7 +40,7 @@ fn crossing(triangle: [[f64; 3]; 3], level: f64) -> Option<[(f64, f64); 2]> {
     let edge = |(from, to): (usize, usize)| {
         let ([x, y, a], [u, v, b]) = (triangle[from], triangle[to]);
         let part = (level - a) / (b - a);
-        ((a < level) != (b < level)).then(|| (x + part * (u - x), y + part * (v - y)))
+        ((a < level) != (b < level)).then_some((x + part * (u - x), y + part * (v - y)))
     };
     let found: Vec<_> = [(0, 1), (1, 2), (2, 0)].into_iter().filter_map(edge).collect();
     match found[..] {
