@@ -92,6 +92,23 @@ fn row(kind: Kind, declared: &LawDeclaration) -> String {
     )
 }
 
+/// The row of the keys for faces of grids.
+fn at_faces(kind: Kind) -> Option<String> {
+    match kind {
+        Kind::Contact | Kind::Resistor | Kind::Conduction | Kind::Convection => {
+            let of = "of two faces of blocks: their [place on each other]\
+                (../grids.md#bodies-that-meet-in-part)";
+            Some(format!("| `offset`, `axes` | {of} | m | | one middle |"))
+        }
+        Kind::Advection => {
+            let of =
+                "a [face along which it flows](../grids.md#a-stream-along-a-face), and the axis";
+            Some(format!("| `along`, `direction` | {of} | | | |"))
+        }
+        _ => None,
+    }
+}
+
 /// What a page says of keys and laws.
 pub(crate) fn tables(kind: Kind) -> String {
     let mut lines = vec![
@@ -103,15 +120,7 @@ pub(crate) fn tables(kind: Kind) -> String {
         true => "| `into` | a node, a grid, a face, or `{ a = 0.6, b = 0.4 }` | | | |".to_owned(),
         false => format!("| `from`, `to` | two nodes or boundaries{ends} | | | |"),
     });
-    if matches!(kind, Kind::Contact | Kind::Resistor | Kind::Conduction | Kind::Convection) {
-        let of = "of two faces of blocks: their [place on each other]\
-            (../grids.md#bodies-that-meet-in-part)";
-        lines.push(format!("| `offset`, `axes` | {of} | m | | one middle |"));
-    }
-    if kind == Kind::Advection {
-        let of = "a [face along which it flows](../grids.md#a-stream-along-a-face), and the axis";
-        lines.push(format!("| `along`, `direction` | {of} | | | |"));
-    }
+    lines.extend(at_faces(kind));
     if kind.laws().any(|law| law.declaration().carries.is_of_fluid()) {
         let of = "a [fluid](material.md) of the file or of the library: `air`, `water`, \
             `gear_oil_vg220`, ..";
