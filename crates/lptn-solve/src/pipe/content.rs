@@ -132,6 +132,11 @@ impl Content {
         self.size
     }
 
+    /// The amount that had passed when the content was recorded last.
+    pub(crate) fn passed(&self) -> f64 {
+        self.passed
+    }
+
     fn same(&self) -> f64 {
         SAME * self.size + 4.0 * f64::EPSILON * self.passed.abs()
     }

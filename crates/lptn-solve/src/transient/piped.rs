@@ -110,17 +110,14 @@ impl Run<'_> {
     /// Fills the pipes with the fluid that entered between two times of the last step.
     pub(super) fn fill_pipes(&mut self, from: f64, to: f64) -> Result<(), Break> {
         let Some(pipes) = self.pipes.clone() else { return Ok(()) };
-        let filled: Vec<Filled> = pipes.borrow().filled().to_vec();
+        let known = pipes.borrow();
+        let filled = known.filled();
         let nothing = Entering { passed: [0.0; POINTS], temperatures: [0.0; POINTS] };
         let mut entering = vec![nothing; filled.len()];
-        let ends: Vec<bool> = filled
-            .iter()
-            .map(|pipe| {
-                let passed = self.passed((from, to), pipe.state)?;
-                Ok(passed[POINTS - 1] < passed[0])
-            })
-            .collect::<Result<_, Break>>()?;
         let mut state = self.integrator.state().to_vec();
+        self.integrator.interpolate(to, &mut state).map_err(|e| self.failed(e))?;
+        let back = |pipe: &Filled| state[pipe.state] < pipe.content.passed();
+        let reversed: Vec<bool> = filled.iter().map(back).collect();
         for point in 0..POINTS {
             let time = time_of((from, to), point);
             self.integrator.interpolate(time, &mut state).map_err(|e| self.failed(e))?;
@@ -128,11 +125,12 @@ impl Run<'_> {
             let system = heat.system();
             let (_, work) = heat.temperatures(time, &state).map_err(Break::Failed)?;
             let vertices = vertices(system, work);
-            for ((pipe, entering), reversed) in filled.iter().zip(&mut entering).zip(&ends) {
+            for ((pipe, entering), reversed) in filled.iter().zip(&mut entering).zip(&reversed) {
                 entering.passed[point] = state[pipe.state];
                 entering.temperatures[point] = pipe.entering(&vertices, *reversed);
             }
         }
+        drop(known);
         pipes.borrow_mut().enter(entering, std::mem::take(&mut self.bends));
         Ok(())
     }
