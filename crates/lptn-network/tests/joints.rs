@@ -1,4 +1,4 @@
-//! Faces of blocks that overlap in part: the pairs of cells, their areas, and what is refused.
+//! Faces of blocks that overlap in part: the pairs of cells, their areas, refusals.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use crate::common;

@@ -221,7 +221,7 @@ pub struct FacePath {
     pub area: Option<Value>,
     /// The place of the first of two faces on the second.
     pub(crate) placement: Placement,
-    /// How its conductors follow from the cells of two faces.
+    /// The pairs of cells of two faces that its conductors join.
     pub(crate) joint: Joint,
     pub(crate) first: u32,
     pub(crate) end: u32,
