@@ -62,7 +62,7 @@ pub fn hashes(netlist: &Netlist) -> Vec<FileHash> {
 /// Claim on the linearity of the network.
 fn linearity(input: &Input) -> Claim {
     let network = &input.netlist.network;
-    let constant = network.node_ids().all(|id| network.enthalpy(id).is_none());
+    let constant = network.first_varying_capacity().is_none();
     let linear = constant && input.assemble().is_ok_and(|system| system.is_proportional());
     Claim::open(match (linear, network.has_events()) {
         (true, false) => "linear: temperatures rise in proportion to heat",

@@ -100,7 +100,9 @@ pub fn place(input: &Input, error: &LinearisedError) -> Option<Span> {
     match error {
         LinearisedError::NotLinear { item, .. } => input.netlist.source_map.name(*item),
         LinearisedError::Input(error) => input.place_of(error),
-        LinearisedError::Melts { name } | LinearisedError::Pipe { name } => input.node_place(name),
+        LinearisedError::Melts { name }
+        | LinearisedError::Pipe { name }
+        | LinearisedError::Mass { name } => input.node_place(name),
         LinearisedError::Singular => None,
     }
 }

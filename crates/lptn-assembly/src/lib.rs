@@ -18,6 +18,7 @@ mod part;
 mod pattern;
 mod positions;
 mod radiation;
+mod scaled;
 mod slopes;
 mod sweep;
 mod switching;

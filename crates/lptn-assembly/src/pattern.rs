@@ -65,6 +65,11 @@ impl JacobianPattern {
         self.rows.len()
     }
 
+    /// The slots of a row.
+    pub(crate) fn row(&self, row: usize) -> Vec<usize> {
+        (0..self.rows.len()).filter(|slot| self.rows[*slot] == row).collect()
+    }
+
     pub(crate) fn diagonal_slot(&self, unknown: usize) -> usize {
         self.diagonal[unknown]
     }

@@ -11,6 +11,7 @@ use crate::error::AssemblyError;
 use crate::outer::Outer;
 use crate::pattern::JacobianPattern;
 use crate::radiation::Radiation;
+use crate::scaled::Scaled;
 use crate::together::Together;
 use crate::workspace::Workspace;
 
@@ -47,6 +48,8 @@ pub struct ThermalSystem {
     /// Elements that are evaluated together.
     pub(crate) together: Arc<Together>,
     pub(crate) streams: Arc<Vec<ConductorId>>,
+    /// Nodes whose capacity follows states.
+    pub(crate) scaled: Arc<Vec<Scaled>>,
     /// True if every element has a symmetric form.
     pub(crate) symmetric: bool,
     pub(crate) elimination: Arc<Elimination>,
@@ -75,12 +78,15 @@ impl ThermalSystem {
         pairs.extend(links.iter().map(|link| (link.a, link.b)));
         pairs.extend(radiation.iter().filter_map(|r| r.pair(&number)));
         elements.iter().for_each(|element| pairs.extend(element.pairs(&number)));
+        pairs.extend(Scaled::pairs(network, &number));
         let pattern = JacobianPattern::new(unknowns.len(), pairs);
         radiation.iter_mut().for_each(|r| r.place(&number, &pattern));
         elements.iter_mut().for_each(|element| element.place(&number, &pattern));
         let place = |row, column| slot(&pattern, row, column);
         let link_slots = links.iter().map(|l| [place(l.a, l.b), place(l.b, l.a)]).collect();
-        let symmetric = elements.iter().all(|element| element.is_symmetric(network));
+        let scaled = Scaled::all_of(network, &number, &pattern);
+        let even = |element: &Element| element.is_symmetric(network);
+        let symmetric = scaled.is_empty() && elements.iter().all(even);
         let mass = unknowns.iter().map(|&id| network.capacity(id)).collect();
         let stream = |id: &ConductorId| network.conductors()[id.index()].law.is_stream();
         let streams = network.conductor_ids().filter(stream).collect();
@@ -102,6 +108,7 @@ impl ThermalSystem {
             bodies: Arc::new(bodies),
             elements: Arc::new(elements),
             streams: Arc::new(streams),
+            scaled: Arc::new(scaled),
             symmetric,
             elimination: Arc::new(elimination),
             pattern,
@@ -145,13 +152,15 @@ impl ThermalSystem {
 
     /// True if the flow is linear in the unknowns with constant coefficients, and symmetric.
     pub fn is_linear(&self) -> bool {
-        self.elements.is_empty() && self.radiation.is_empty()
+        self.elements.is_empty() && self.radiation.is_empty() && self.scaled.is_empty()
     }
 
     /// True if the temperatures rise in proportion to the heat: constant streams may be among the
     /// paths, which only make it lack symmetry.
     pub fn is_proportional(&self) -> bool {
-        self.radiation.is_empty() && self.elements.iter().all(Element::is_constant_stream)
+        self.radiation.is_empty()
+            && self.scaled.is_empty()
+            && self.elements.iter().all(Element::is_constant_stream)
     }
 
     /// True if the Jacobian has a symmetric form that Newton's method may use.
@@ -227,11 +236,23 @@ impl ThermalSystem {
     }
 
     /// Writes the heat flow into each unknown in W, from the inputs last read and the temperatures
-    /// `y` of the unknowns in K.
+    /// `y` of the unknowns in K. That of a node whose capacity follows states is the one that would
+    /// change a node with the capacity of the start as fast.
     ///
     /// # Errors
     /// [`InputError`] naming the element whose heat cannot be evaluated; never for a linear system.
     pub fn flow(
+        &self,
+        work: &mut Workspace,
+        y: &[f64],
+        flow: &mut [f64],
+    ) -> Result<(), InputError> {
+        self.heat_flow(work, y, flow)?;
+        self.scale_flow(work, flow)
+    }
+
+    /// The heat flow into each unknown in W.
+    pub(crate) fn heat_flow(
         &self,
         work: &mut Workspace,
         y: &[f64],
@@ -301,7 +322,7 @@ impl ThermalSystem {
                 self.elements[i].add_slopes(&self.network, work, form, values)?;
             }
         }
-        Ok(())
+        self.scale_slopes(work, y, values)
     }
 
     /// The part of the Jacobian that constant conductances make up, in W/K: all of it for a linear

@@ -87,7 +87,7 @@ pub(crate) fn elaborate(
     work.materials();
     work.fluids();
     let import = work.import();
-    work.nodes(default.initial.as_ref());
+    let follow_states = work.nodes(default.initial.as_ref());
     work.import_nodes(import.as_ref(), default.initial.as_ref());
     work.grids(default.initial.as_ref());
     work.streams_along();
@@ -95,6 +95,7 @@ pub(crate) fn elaborate(
     work.import_boundaries(import.as_ref());
     let states = work.states();
     work.named_values();
+    work.capacities_of_states(follow_states);
     work.pipes(pipes, default.initial.as_ref());
     work.connections();
     work.thermostats(controls);

@@ -33,6 +33,7 @@ pub(crate) fn not_here(place: Place<'_>, name: &str, wanted: Wanted, at: Span) -
             "the density of a solid is constant: give it at the temperature at which its volume is \
              measured"
         }
+        Context::Capacity => "it may depend on `T`, the temperature of its own node, or on states",
         Context::Own => {
             "it may depend on `T`, the temperature of its own body or fluid, and on no other"
         }
@@ -61,6 +62,10 @@ pub(crate) fn depends_on_time(place: Place<'_>, name: &str, at: Span) -> Diagnos
     }
     let help = match place.key {
         "below" | "above" => BOUND_HELP,
+        "C" => {
+            "a capacity may follow a state: below [state] write its mass, for example `m = { rate = \
+             \"0.1 kg/s\", start = \"50 kg\" }`"
+        }
         _ => {
             "sources, boundaries, the values of paths and signals may depend on time; this has to \
              be constant"

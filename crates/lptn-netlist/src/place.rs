@@ -110,6 +110,11 @@ impl Wanted {
         Self { ty: Some(ty), context: Context::Own, time: false, controls: false, derived: false }
     }
 
+    /// A capacity: it may depend on its own `T` or on states.
+    pub(crate) fn capacity(ty: Type) -> Self {
+        Self { context: Context::Capacity, ..Self::own(ty) }
+    }
+
     /// A value of a path or source, whose expressions may name the temperatures of `context`.
     pub(crate) fn of_law(ty: Option<Type>, context: Context) -> Self {
         Self { ty, context, time: true, controls: true, derived: false }
@@ -125,10 +130,15 @@ impl Wanted {
         matches!(self.context, Context::Control | Context::Source | Context::Link | Context::Result)
     }
 
+    /// True if it may name states and named values.
+    pub(crate) fn names_states(self) -> bool {
+        self.context == Context::Capacity || self.names_nodes()
+    }
+
     /// True if this is a name of a temperature in this place.
     pub(crate) fn is_local(self, name: &str) -> bool {
         match self.context {
-            Context::Own | Context::Source => name == "T",
+            Context::Own | Context::Capacity | Context::Source => name == "T",
             Context::Link => matches!(name, "T_from" | "T_to" | "T_mean" | "dT"),
             Context::Time | Context::Control | Context::Result => false,
         }

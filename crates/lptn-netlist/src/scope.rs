@@ -85,7 +85,7 @@ impl Names {
                 ValueKind::Control if !wanted.controls => {
                     Some(control_not_here(place, &name, at()))
                 }
-                ValueKind::State | ValueKind::Value if !wanted.names_nodes() => {
+                ValueKind::State | ValueKind::Value if !wanted.names_states() => {
                     Some(value_not_here(place, (kind, &name), at()))
                 }
                 _ => None,

@@ -46,7 +46,7 @@ fn short(rate: f64) -> String {
 }
 
 fn warning(network: &Network, map: &SourceMap, passing: Passing) -> Diagnostic {
-    let Passing { node, inflow, outflow } = passing;
+    let Passing { node, inflow, outflow, growth } = passing;
     let end = End::Node(node);
     let first = network.conductors().iter().zip(network.conductor_ids()).find(|(conductor, _)| {
         conductor.law.is_stream() && (conductor.from == end || conductor.to == end)
@@ -57,7 +57,11 @@ fn warning(network: &Network, map: &SourceMap, passing: Passing) -> Diagnostic {
         short(inflow),
         short(outflow)
     );
-    let problem = Diagnostic::warning("network::unbalanced_streams", message);
+    let grows = match growth == 0.0 {
+        true => String::new(),
+        false => format!("; its capacity grows by {} W/K", short(growth)),
+    };
+    let problem = Diagnostic::warning("network::unbalanced_streams", message + &grows);
     let problem = problem.at(first.and_then(|(_, id)| map.name(Item::Conductor(id))), "");
     let problem = problem.also(map.name(Item::Node(node)), "the node");
     problem.help(

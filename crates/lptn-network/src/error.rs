@@ -91,8 +91,9 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             "{} cannot depend on the temperature of a node or boundary",
             say.field(*item, *field)
         ),
-        help text("sources, conductors and limits may depend on temperatures; a capacity and a \
-            property of a material may depend on their own `T`");
+        help text("sources, conductors and limits may depend on temperatures; a property of a \
+            material may depend on its own `T`, a capacity on its own `T` or on states, but not on \
+            both");
     /// A comparison whose sides are not linear in `t`: the time at which it changes is not known in
     /// advance.
     ComparisonNotLinear { item: Item, field: Field } = "network::comparison_not_linear",

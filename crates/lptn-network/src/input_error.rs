@@ -56,6 +56,9 @@ pub enum InputProblem {
         help "keep it between 0 and 1: `min(max(x, 0), 1)`";
     /// An angle that no such part has, in degrees.
     Angle(value: f64) = INPUT, format!("is an angle of {value} deg, which no such part has");
+    /// A capacity that is not positive, in J/K.
+    NoCapacity(value: f64) = INPUT, format!("is not positive: {value} J/K"),
+        help "keep the states positive that it reads: give them a `min` above zero";
     /// A quantity that cannot be negative, in SI units.
     Negative(value: f64) = INPUT, format!("is negative: {value} (SI units)"),
         help "keep it positive: `max(x, 0)` with its unit";

@@ -97,6 +97,7 @@ pub use parts::result::{Bound, Limit, LimitSeverity, Report};
 pub use parts::shape::{Form, Shape};
 pub use parts::signal::{AfterEnd, Course, Join, Signal};
 pub use parts::state::State;
+pub use parts::state_capacity::StateCapacity;
 pub use parts::substance::{Fluid, Material, Melting, Winding};
 pub use parts::switch::Switch;
 pub use periodicity::{NoCommonPeriod, NotPeriodic};

@@ -13,8 +13,10 @@ use crate::slot;
 pub enum Context {
     /// Parameters, boundaries, signals: nothing but parameters, `t`, signals, controls and tables.
     Time,
-    /// The capacity of a node, a property of a material or fluid: its own `T` too.
+    /// A property of a material or fluid: its own `T` too.
     Own,
+    /// The capacity of a node: its own `T`, or states.
+    Capacity,
     /// A threshold of a control: `NAME.T` of every node and boundary too.
     Control,
     /// A source: its node's own `T` and `NAME.T` of every node and boundary too.
@@ -40,7 +42,9 @@ impl<'a> NetworkScope<'a> {
     /// Temperatures of the element at hand.
     fn local(self, name: &str) -> Option<Symbol> {
         let (slot, ty) = match (self.context, name) {
-            (Context::Own | Context::Source, "T") => (slot::OWN, Type::ABSOLUTE_TEMPERATURE),
+            (Context::Own | Context::Capacity | Context::Source, "T") => {
+                (slot::OWN, Type::ABSOLUTE_TEMPERATURE)
+            }
             (Context::Link, "T_from") => (slot::FROM, Type::ABSOLUTE_TEMPERATURE),
             (Context::Link, "T_to") => (slot::TO, Type::ABSOLUTE_TEMPERATURE),
             (Context::Link, "T_mean") => (slot::MEAN, Type::ABSOLUTE_TEMPERATURE),
@@ -51,7 +55,7 @@ impl<'a> NetworkScope<'a> {
     }
 
     fn names_ends(self) -> bool {
-        matches!(self.context, Context::Control | Context::Source | Context::Link | Context::Result)
+        !matches!(self.context, Context::Time | Context::Own)
     }
 
     fn temperature(self, name: &str) -> Option<Symbol> {

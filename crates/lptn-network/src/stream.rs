@@ -5,6 +5,7 @@ use crate::input_error::InputError;
 use crate::law::{At, ConductorFlow, Received};
 use crate::network::Network;
 use crate::network::flow::place;
+use crate::parts::state_capacity::StateCapacity;
 
 /// Temperature at which capacity rates are compared, in K.
 const REFERENCE: f64 = 298.15;
@@ -18,12 +19,15 @@ pub struct Passing {
     pub inflow: f64,
     /// The rate that flows out.
     pub outflow: f64,
+    /// The rate by which the capacity of the node grows.
+    pub growth: f64,
 }
 
 impl Passing {
-    /// True if inflow and outflow are equal except for rounding.
+    /// True if inflow and outflow are equal except for rounding, or the node grows by their
+    /// difference.
     pub fn is_balanced(&self) -> bool {
-        (self.inflow - self.outflow).abs() <= 1e-6 * self.inflow.max(self.outflow)
+        (self.inflow - self.outflow - self.growth).abs() <= 1e-6 * self.inflow.max(self.outflow)
     }
 }
 
@@ -84,9 +88,15 @@ impl Network {
     pub fn passing_streams(&self, time: f64) -> Result<Vec<Passing>, InputError> {
         let mut scope = self.evaluation();
         scope.set_time(time, time);
-        let temperatures = vec![REFERENCE; self.nodes().len() + self.boundaries().len()];
-        let mut passing: Vec<Passing> =
-            self.node_ids().map(|node| Passing { node, inflow: 0.0, outflow: 0.0 }).collect();
+        let mut temperatures = vec![REFERENCE; self.nodes().len() + self.boundaries().len()];
+        for state in self.states().iter().filter(|state| !state.balanced) {
+            temperatures[state.node.index()] = self.initial(state.node);
+        }
+        let none = |node| Passing { node, inflow: 0.0, outflow: 0.0, growth: 0.0 };
+        let mut passing: Vec<Passing> = self.node_ids().map(none).collect();
+        for of in self.state_capacities() {
+            passing[of.node.index()].growth = self.growth(of, &mut scope, &temperatures)?;
+        }
         let mut slopes = Vec::new();
         for id in self.conductor_ids() {
             let conductor = &self.conductors()[id.index()];
@@ -108,6 +118,24 @@ impl Network {
         }
         passing.retain(|p| p.inflow + p.outflow > 0.0);
         Ok(passing)
+    }
+
+    /// Growth of a capacity that follows states, in W/K.
+    fn growth(
+        &self,
+        of: &StateCapacity,
+        scope: &mut crate::Evaluation,
+        temperatures: &[f64],
+    ) -> Result<f64, InputError> {
+        let mut slopes = Vec::new();
+        self.capacity_slopes(of, scope, temperatures, &mut slopes)?;
+        let mut growth = 0.0;
+        for (node, slope) in of.states.iter().zip(slopes) {
+            let source = self.state_at(*node).and_then(|state| state.source);
+            let Some(source) = source else { continue };
+            growth += slope * self.source_heat(source, scope, temperatures)?;
+        }
+        Ok(growth)
     }
 
     /// Capacity rate of a stream in W/K, positive from `from` to `to`.

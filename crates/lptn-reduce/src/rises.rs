@@ -139,7 +139,7 @@ fn first_variable(network: &Network) -> Option<Item> {
     let varies = |flow| matches!(flow, ConductorFlow::Radiation(_) | ConductorFlow::Variable);
     let conductor = network.conductor_ids().find(|id| varies(network.flow(*id)));
     let source = network.source_ids().find(|id| !network.source_variables(*id).is_empty());
-    let node = network.node_ids().find(|id| network.enthalpy(*id).is_some());
+    let node = network.first_varying_capacity();
     let items = [conductor.map(Item::Conductor), source.map(Item::Source), node.map(Item::Node)];
     items.into_iter().flatten().next()
 }

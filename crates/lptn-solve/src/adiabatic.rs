@@ -30,10 +30,12 @@ pub(crate) struct Island {
 
 impl Island {
     /// The islands of a system that neither a source that depends on temperatures nor a stream
-    /// reaches, but for constant streams that go round and round.
+    /// reaches, but for constant streams that go round and round, and whose mass does not change.
     pub(crate) fn all_of(system: &ThermalSystem) -> Vec<Self> {
         let exchanges = exchanges(system.network());
-        let keeps = |nodes: &Vec<NodeId>| !nodes.iter().any(|&id| exchanges[id.index()]);
+        let fixed = |id: NodeId| system.network().capacity_of_states(id).is_none();
+        let keeps =
+            |nodes: &Vec<NodeId>| nodes.iter().all(|&id| !exchanges[id.index()] && fixed(id));
         let islands = system.network().ungrounded().into_iter().filter(keeps);
         islands.filter_map(|nodes| Self::new(system, nodes)).collect()
     }

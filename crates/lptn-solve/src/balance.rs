@@ -178,7 +178,7 @@ impl Books {
         let ledger = Ledger::new(system, of_ledger, stored, tolerance).allowing(self.error);
         let balance = self.of.map(|of| {
             let stored = match of {
-                End::Node(id) => ledger.stored[id.index()],
+                End::Node(id) => ledger.warmed(system.network(), id),
                 End::Boundary(id) => -ledger.boundaries[id.index()],
             };
             let network = system.network();

@@ -1,7 +1,7 @@
 //! The energy ledger of a run: heat in, heat out and stored heat.
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_network::InputError;
+use lptn_network::{InputError, Network, NodeId};
 
 /// Heat exchanged during a run, in J.
 ///
@@ -14,9 +14,13 @@ pub struct Ledger {
     pub boundaries: Vec<f64>,
     /// Heat that each stream brought to its two ends together, in the order of the conductors.
     pub streams: Vec<f64>,
-    /// Heat that each node stored: the integral of its capacity over its rise.
+    /// Heat, over the temperature of the start, that came with the mass of each node of
+    /// [`Network::state_capacities`](lptn_network::Network::state_capacities).
+    pub masses: Vec<f64>,
+    /// Heat that each node stored, with that of its mass: without a mass that changes, the integral
+    /// of its capacity over its rise.
     pub stored: Vec<f64>,
-    /// Integral of the absolute heat of every source, boundary and stream, plus the absolute heat
+    /// Integral of the absolute heat of every source, boundary, stream and mass, plus the absolute heat
     /// stored by each node.
     pub turned_over: f64,
     /// Largest allowed residual over the total heat: the share given for the run, else `1e-8 + 10
@@ -40,12 +44,13 @@ impl Ledger {
         let (sources, rest) = integrals.split_at(network.sources().len());
         let (boundaries, rest) = rest.split_at(network.boundaries().len());
         let (streams, rest) = rest.split_at(system.streams().len());
-        let (piped, turned) = rest.split_at(network.pipes().len());
+        let (piped, rest) = rest.split_at(network.pipes().len());
+        let (masses, turned) = rest.split_at(network.state_capacities().len());
         let turned_over = turned.iter().sum::<f64>() + stored.iter().map(|q| q.abs()).sum::<f64>();
         let capacity: f64 = network.thermal_nodes().map(|id| network.capacity(id)).sum();
         let bound = 1e-8 + 10.0 * tolerance * capacity / turned_over;
-        let [sources, boundaries, mut streams] =
-            [sources, boundaries, streams].map(<[f64]>::to_vec);
+        let [sources, boundaries, masses, mut streams] =
+            [sources, boundaries, masses, streams].map(<[f64]>::to_vec);
         for (pipe, received) in network.pipes().iter().zip(piped) {
             let missed = stored[pipe.node.index()] - received;
             let stream = system.streams().binary_search(&pipe.streams[0]);
@@ -53,7 +58,7 @@ impl Ledger {
                 streams[stream] += missed;
             }
         }
-        Self { sources, boundaries, streams, stored, turned_over, bound }
+        Self { sources, boundaries, streams, masses, stored, turned_over, bound }
     }
 
     /// The same ledger with this share of the total heat as its bound, if there is one.
@@ -61,11 +66,19 @@ impl Ledger {
         Self { bound: share.unwrap_or(self.bound), ..self }
     }
 
-    /// Sources plus boundaries plus streams less stored heat, in J: zero but for rounding and the
+    /// Heat in J that warmed a node: the stored heat less that of its mass.
+    pub(crate) fn warmed(&self, network: &Network, node: NodeId) -> f64 {
+        let masses = network.state_capacities().iter().zip(&self.masses);
+        let mass: f64 = masses.filter(|(of, _)| of.node == node).map(|(_, heat)| heat).sum();
+        self.stored[node.index()] - mass
+    }
+
+    /// Sources plus boundaries plus streams plus masses less stored heat, in J: zero but for rounding and the
     /// residual of Newton's method.
     pub fn residual(&self) -> f64 {
         let sum = |q: &[f64]| q.iter().sum::<f64>();
-        sum(&self.sources) + sum(&self.boundaries) + sum(&self.streams) - sum(&self.stored)
+        let given = sum(&self.sources) + sum(&self.boundaries) + sum(&self.streams);
+        given + sum(&self.masses) - sum(&self.stored)
     }
 
     /// The residual over the total heat; `None` if no heat was exchanged.
@@ -111,11 +124,12 @@ pub enum LedgerError {
 pub(crate) fn integrals(system: &ThermalSystem) -> usize {
     let network = system.network();
     let ends = network.sources().len() + network.boundaries().len();
-    ends + system.streams().len() + network.pipes().len() + 1
+    let inside = network.pipes().len() + network.state_capacities().len();
+    ends + system.streams().len() + inside + 1
 }
 
 /// The integrands at the inputs of `work` and the temperatures `y` of the unknowns: sources,
-/// boundaries, streams, sum of absolute values, in W.
+/// boundaries, streams, pipes, masses, sum of absolute values, in W.
 pub(crate) fn integrands(
     system: &ThermalSystem,
     work: &mut Workspace,
@@ -125,15 +139,18 @@ pub(crate) fn integrands(
     let (sources, rest) = q.split_at_mut(system.network().sources().len());
     let (boundaries, rest) = rest.split_at_mut(system.network().boundaries().len());
     let (streams, rest) = rest.split_at_mut(system.streams().len());
-    let (piped, turned) = rest.split_at_mut(system.network().pipes().len());
+    let (piped, rest) = rest.split_at_mut(system.network().pipes().len());
+    let (masses, turned) = rest.split_at_mut(system.network().state_capacities().len());
     system.boundary_heat(work, y, boundaries)?;
     system.stream_heat(work, streams)?;
     for (heat, pipe) in piped.iter_mut().zip(system.network().pipes()) {
         let [into, out] = pipe.streams;
         *heat = system.received(work, into)?[1] + system.received(work, out)?[0];
     }
+    system.mass_heat(work, y, masses)?;
     sources.copy_from_slice(system.source_powers(work));
     system.network().without_states(sources);
-    turned[0] = sources.iter().chain(&*boundaries).chain(&*streams).map(|q| q.abs()).sum();
+    turned[0] =
+        [&*sources, boundaries, streams, masses].into_iter().flatten().map(|q| q.abs()).sum();
     Ok(())
 }

@@ -34,6 +34,10 @@ pub enum LinearisedError {
     Pipe { name: String } = "linearised::pipe",
         format!("the fluid in the pipe `{name}` entered earlier: no small linear network has that"),
         help "join the two ends of the pipe by an [advection], which has no delay";
+    /// The capacity of a node follows a state; its name.
+    Mass { name: String } = "linearised::mass",
+        format!("the capacity of `{name}` follows a state: no small linear network has that"),
+        help "write the capacity at the operating point as a number";
     /// The balances of the massless nodes cannot be solved for them.
     Singular = "linearised::singular",
         "the massless nodes do not respond to a small disturbance there",
@@ -83,6 +87,10 @@ impl<'a> Linearised<'a> {
     pub fn of(system: &'a ThermalSystem, at: Option<&Snapshot>) -> Result<Self, LinearisedError> {
         if let Some(name) = pipe::first(system) {
             return Err(LinearisedError::Pipe { name });
+        }
+        if let Some(of) = system.network().state_capacities().first() {
+            let name = system.network().name_of(lptn_network::Item::Node(of.node)).into_owned();
+            return Err(LinearisedError::Mass { name });
         }
         if is_proportional(system) {
             return Self::of_proportional(system);
@@ -251,7 +259,7 @@ impl<'a> Linearised<'a> {
 /// True if a network is the same near every state; streams with constant capacity rates are.
 pub(crate) fn is_proportional(system: &ThermalSystem) -> bool {
     let network = system.network();
-    system.is_proportional() && system.states().iter().all(|&id| network.enthalpy(id).is_none())
+    system.is_proportional() && network.first_varying_capacity().is_none()
 }
 
 /// Capacity of each state in J/K at temperatures of the unknowns in K.

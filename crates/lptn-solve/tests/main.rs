@@ -20,6 +20,7 @@ mod exact_streams;
 mod failures;
 mod families;
 mod features;
+mod filling;
 mod flow_networks;
 mod folds;
 mod guard;

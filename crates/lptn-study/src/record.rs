@@ -37,11 +37,15 @@ pub struct LedgerRecord {
     pub boundaries: Map<String, Value>,
     /// Heat that each stream brought to its two ends together.
     pub streams: Map<String, Value>,
+    /// Heat, over the temperature of the start, that came with the mass of each node whose capacity
+    /// follows states.
+    #[serde(skip_serializing_if = "Map::is_empty")]
+    pub masses: Map<String, Value>,
     /// Heat that each node stored.
     pub stored: Map<String, Value>,
     /// Total heat exchanged.
     pub turned_over: SiValue,
-    /// Sources plus boundaries plus streams less stored.
+    /// Sources plus boundaries plus streams plus masses less stored.
     pub residual: SiValue,
     /// The residual over the total heat exchanged; `null` if there was none.
     pub relative_residual: Option<SiValue>,
@@ -61,6 +65,8 @@ impl LedgerRecord {
         let boundaries = network.boundaries().iter().map(|b| Cow::from(&b.name));
         let streams = network.conductors().iter().filter(|c| c.kind == ConductorKind::Advection);
         let streams = streams.map(Conductor::name);
+        let masses = network.state_capacities().iter();
+        let masses = masses.map(|of| network.name_of(Item::Node(of.node)));
         let ids: Vec<NodeId> = network.thermal_nodes().collect();
         let nodes = ids.iter().map(|id| network.name_of(Item::Node(*id)));
         let stored: Vec<f64> = ids.iter().map(|id| ledger.stored[id.index()]).collect();
@@ -68,6 +74,7 @@ impl LedgerRecord {
             sources: by_name(sources, &given),
             boundaries: by_name(boundaries, &ledger.boundaries),
             streams: by_name(streams, &ledger.streams),
+            masses: by_name(masses, &ledger.masses),
             stored: by_name(nodes, &stored),
             turned_over: SiValue::new(ledger.turned_over, "J"),
             residual: SiValue::new(ledger.residual(), "J"),

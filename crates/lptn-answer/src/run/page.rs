@@ -281,6 +281,12 @@ pub(crate) fn heat_over(text: &mut Text, solution: &Solution, (length, clock): (
     let mut flows: Vec<Flow> = sources.chain(boundaries).map(flow).collect();
     // streams pass heat to each other: only their sum is meaningful
     flows.push(Flow { name: "streams".into(), heat: ledger.streams.iter().sum() });
+    for (of, &heat) in network.state_capacities().iter().zip(&ledger.masses) {
+        flows.push(Flow {
+            name: format!("mass of {}", network.name_of(lptn_network::Item::Node(of.node))),
+            heat,
+        });
+    }
     let pieces = lptn_report::balance(&flows, ledger.stored.iter().sum(), ledger.turned_over);
     let over = over(length, clock);
     let width = over.len() + 2;

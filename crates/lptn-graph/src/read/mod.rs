@@ -143,7 +143,7 @@ impl Reader<'_> {
     fn role(&self, group: &Group) -> PlaceRole {
         let capacity = || {
             let sum: f64 = group.nodes.iter().map(|id| self.network.capacity(*id)).sum();
-            let varies = group.nodes.iter().any(|id| self.network.enthalpy(*id).is_some());
+            let varies = group.nodes.iter().any(|id| self.network.capacity_varies(*id));
             (sum > 0.0).then(|| match varies {
                 true => format!("{} at the start", words::si(sum, "J/K")),
                 false => words::si(sum, "J/K"),

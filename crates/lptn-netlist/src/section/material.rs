@@ -162,7 +162,7 @@ impl<'a> Elaboration<'a> {
         let lump = ["material", "mass", "volume"].into_iter().find(|key| fields.get(key).is_some());
         match (fields.get("C"), lump) {
             (None, None) => None,
-            (Some(_), None) => self.input(fields, "C", Wanted::own(ty)),
+            (Some(_), None) => self.input(fields, "C", Wanted::capacity(ty)),
             (Some(_), Some(key)) => {
                 let message = format!("has `C` as well as `{key}`");
                 self.report(fields.several("netlist::two_capacities", message, ["C", key]).help(

@@ -6,7 +6,8 @@ use lptn_units::{Dimension, Type};
 
 use crate::fields::Fields;
 use crate::format::{ABSOLUTE, KeyDeclaration, Role, SectionDeclaration, flag, key};
-use crate::place::Wanted;
+use crate::names::ValueKind;
+use crate::place::{Place, Text, Wanted};
 use crate::raw::{RawEntry, RawKind};
 use crate::section::default::Initial;
 use crate::section::keys::{CAPACITY, MASS, MATERIAL_OF, VOLUME};
@@ -43,13 +44,38 @@ pub(crate) const NODE: SectionDeclaration = SectionDeclaration {
 };
 
 impl<'a> Elaboration<'a> {
-    pub(crate) fn nodes(&mut self, default: Option<&Initial<'a>>) {
-        for entry in self.elements(NODE.name) {
-            self.node(entry, default);
+    /// Adds the nodes; returns those whose capacity reads states, which are not known yet.
+    pub(crate) fn nodes(&mut self, default: Option<&Initial<'a>>) -> Vec<(NodeId, Fields<'a>)> {
+        let entries = self.elements(NODE.name).iter();
+        entries.filter_map(|entry| self.node(entry, default)).collect()
+    }
+
+    /// Sets the capacities that read states.
+    pub(crate) fn capacities_of_states(&mut self, nodes: Vec<(NodeId, Fields<'a>)>) {
+        for (id, fields) in nodes {
+            if let Some(capacity) = self.capacity(&fields) {
+                self.builder.set_capacity(id, capacity);
+            }
         }
     }
 
-    fn node(&mut self, entry: &'a RawEntry, default: Option<&Initial<'a>>) {
+    /// True if the capacity reads states or named values.
+    fn follows_states(&self, fields: &Fields<'a>) -> bool {
+        let ty = Type::of(Dimension::CAPACITY);
+        let Some(raw) = fields.get("C") else { return false };
+        let place = Place { owner: &fields.owner, key: "C", raw };
+        let Ok(Text::Expression(expression)) = self.names.text(place, Some(ty)) else {
+            return false;
+        };
+        let kinds = expression.names().into_iter().map(|(name, _)| self.names.value_kind(&name));
+        kinds.flatten().any(|kind| matches!(kind, ValueKind::State | ValueKind::Value))
+    }
+
+    fn node(
+        &mut self,
+        entry: &'a RawEntry,
+        default: Option<&Initial<'a>>,
+    ) -> Option<(NodeId, Fields<'a>)> {
         let fields = self.fields(&NODE, entry);
         let field = |key| fields.as_ref().and_then(|fields| fields.get(key));
         let (capacity_at, initial_at) = (field("C").or(field("material")), field("T0"));
@@ -64,7 +90,11 @@ impl<'a> Elaboration<'a> {
                  several solutions";
             self.report(Diagnostic::doubt("netlist::massless_initial", message, &raw.span, help));
         }
-        let capacity = fields.as_ref().and_then(|fields| self.capacity(fields));
+        let later = fields.as_ref().is_some_and(|fields| self.follows_states(fields));
+        let capacity = match later {
+            true => Some(stand_in(Type::of(Dimension::CAPACITY))),
+            false => fields.as_ref().and_then(|fields| self.capacity(fields)),
+        };
         let own = fields.as_ref().and_then(|fields| self.initial(fields));
         let (initial, in_state) = match self.start_of(entry, massless) {
             Some((input, place)) => (Some(input).filter(|_| !massless), place),
@@ -83,9 +113,10 @@ impl<'a> Elaboration<'a> {
             self.map.value(item, Field::Initial, raw);
         }
         self.place_in_state(id, in_state);
-        if doubtful || fields.is_none_or(|fields| !fields.complete) {
+        if doubtful || fields.as_ref().is_none_or(|fields| !fields.complete) {
             self.left_out.items.insert(item);
         }
+        fields.filter(|_| later).map(|fields| (id, fields))
     }
 
     /// The characteristic length, for the Biot number.

@@ -142,6 +142,14 @@ impl NetworkBuilder {
         id
     }
 
+    /// Sets the capacity of a node: one that reads states is compiled after them.
+    pub fn set_capacity(&mut self, node: NodeId, capacity: impl Into<Input>) {
+        let name = self.parts.nodes[node.index()].name.clone();
+        let at = (name.as_str(), Item::Node(node), Field::Capacity);
+        let capacity = self.typed(at, capacity.into(), CAPACITY);
+        self.parts.nodes[node.index()].capacity = Some(capacity);
+    }
+
     /// Adds a part to the capacity of `node`.
     pub fn capacitor(
         &mut self,

@@ -99,7 +99,8 @@ impl Network {
     }
 
     /// Heat capacity of a node with all its parts at its start, in J/K; 0 for a massless node. See
-    /// [`Network::enthalpy`] for one that depends on temperature.
+    /// [`Network::enthalpy`] for one that depends on temperature, [`Network::state_capacities`] for
+    /// one that follows states.
     pub fn capacity(&self, id: NodeId) -> f64 {
         self.numbers.capacity[id.index()]
     }
@@ -333,7 +334,7 @@ impl Network {
     pub fn first_nonlinear(&self) -> Option<Item> {
         let conductor = self.conductor_ids().find(|id| self.conductance(*id).is_none());
         let source = self.source_ids().find(|id| !self.source_variables(*id).is_empty());
-        let node = self.node_ids().find(|id| self.enthalpy(*id).is_some());
+        let node = self.first_varying_capacity();
         let state = self.state_ids().next();
         let items = [
             state.map(Item::State),

@@ -15,12 +15,13 @@ use crate::build_error::BuildError;
 use crate::enthalpy::Enthalpy;
 use crate::error::BuildErrorKind;
 use crate::evaluation::Evaluation;
-use crate::id::{CapacitorId, Field, FluidId, Item, NodeId, ParameterId, SourceId};
+use crate::id::{CapacitorId, End, Field, FluidId, Item, NodeId, ParameterId, SourceId};
 use crate::law::ConductorFlow;
 use crate::numbers::content::Curves;
 use crate::parts::Parts;
 use crate::parts::element::Parameter;
 use crate::parts::pipe::Pipe;
+use crate::parts::state_capacity::StateCapacity;
 use crate::parts::whole;
 use crate::slot;
 use crate::value::Value;
@@ -50,6 +51,8 @@ pub(crate) struct Numbers {
     /// Least and greatest value of each state in SI units; infinite without a bound.
     pub(crate) bounds: Vec<[f64; 2]>,
     pub(crate) pipes: Vec<Pipe>,
+    /// The nodes whose capacity follows states, ascending.
+    pub(crate) state_capacities: Vec<StateCapacity>,
 }
 
 impl Numbers {
@@ -74,6 +77,7 @@ impl Numbers {
         }
         let initial = work.initials();
         let capacity = work.capacities(&initial);
+        let state_capacities = work.state_capacities();
         let flows = work.flows();
         work.check_face_paths();
         work.check_inputs();
@@ -109,6 +113,7 @@ impl Numbers {
                 min_dwell,
                 bounds,
                 pipes,
+                state_capacities,
             })
         } else {
             Err(work.errors)
@@ -149,24 +154,57 @@ impl Work<'_> {
                 capacity.push(capacity[i - 1]);
                 continue;
             }
-            capacity.push(own.map_or(0.0, |c| self.capacity(item, c, initial[i])));
+            capacity.push(own.map_or(0.0, |c| self.capacity(item, c, (initial, i))));
         }
         for (i, part) in parts.capacitors.iter().enumerate() {
             let item = Item::Capacitor(CapacitorId::from_len(i));
             let node = part.node.index();
-            capacity[node] += self.capacity(item, &part.capacity, initial[node]);
+            capacity[node] += self.capacity(item, &part.capacity, (initial, node));
         }
         capacity
     }
 
-    /// A capacity, which may depend on the temperature of its node.
-    fn capacity(&mut self, item: Item, value: &Value, temperature: f64) -> f64 {
+    /// A capacity at the start, which may depend on the temperature of its node or on states.
+    fn capacity(&mut self, item: Item, value: &Value, (initial, node): (&[f64], usize)) -> f64 {
+        let temperature = initial[node];
+        if self.parts.follows_states(value) {
+            return self.of_states(item, value, initial);
+        }
         if self.parts.reads(value).own && temperature.is_finite() {
             self.scope.set(slot::OWN, temperature);
             self.check_comparisons(item, Field::Capacity, value);
             return self.own(item, Field::Capacity, value);
         }
         self.constant(item, Field::Capacity, value, Range::Positive)
+    }
+
+    /// A capacity that follows states, at their start.
+    fn of_states(&mut self, item: Item, value: &Value, initial: &[f64]) -> f64 {
+        let (field, reads) = (Field::Capacity, self.parts.reads(value));
+        if reads.time || reads.positions {
+            self.error(item, BuildErrorKind::DependsOnTime { item, field });
+            return f64::NAN;
+        }
+        for end in reads.temperatures {
+            if let End::Node(id) = end {
+                self.scope.set(self.parts.layout.temperature(end), initial[id.index()]);
+            }
+        }
+        self.evaluate(item, field, value, Range::Positive)
+    }
+
+    /// The capacities that follow states. The other parts of such a node have to be constant.
+    fn state_capacities(&mut self) -> Vec<StateCapacity> {
+        let found = self.parts.state_capacities();
+        if found.is_empty() {
+            return found;
+        }
+        let varying = self.parts.varying_capacities();
+        for node in found.iter().map(|of| of.node).filter(|node| varying[node.index()]) {
+            let (item, field) = (Item::Node(node), Field::Capacity);
+            self.error(item, BuildErrorKind::DependsOnResult { item, field });
+        }
+        found
     }
 
     /// A positive value that may depend on the `T` that was set.

@@ -31,6 +31,7 @@ pub(crate) mod rings;
 pub(crate) mod shape;
 pub(crate) mod signal;
 pub(crate) mod state;
+pub(crate) mod state_capacity;
 pub(crate) mod substance;
 pub(crate) mod switch;
 pub(crate) mod whole;

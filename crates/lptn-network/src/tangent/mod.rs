@@ -85,6 +85,7 @@ impl Network {
         influence: &Influence<'_>,
         variables: &[Variable],
     ) -> Result<Tangents, NoTangents> {
+        refusal::check_capacities(self)?;
         refusal::check_fluids(self, influence)?;
         refusal::check_faces(self, influence)?;
         let chunks = variables.chunks(PASS);

@@ -36,6 +36,10 @@ pub enum NoTangents for |say: &dyn Fn(Item, &str) -> String| at Item {
     Pipe { node: NodeId } = "sensitivity::pipe", at Some(Item::Node(*node)),
         says format!("the fluid in {} entered earlier", say(Item::Node(*node), "a pipe")),
         help None;
+    /// The capacity of a node follows a state.
+    Mass { node: NodeId } = "sensitivity::mass", at Some(Item::Node(*node)),
+        says format!("the capacity of {} follows a state", say(Item::Node(*node), "a node")),
+        help None;
     /// The place or size of a face on another one depends on a parameter: the common areas of cells
     /// bend where their borders meet.
     Faces { path: FacePathId } = "sensitivity::faces", at Some(Item::FacePath(*path)),
@@ -90,6 +94,14 @@ pub(super) fn check_fluids(network: &Network, influence: &Influence<'_>) -> Resu
 pub(super) fn check_pipes(network: &Network) -> Result<(), NoTangents> {
     match network.pipes().first() {
         Some(pipe) => Err(NoTangents::Pipe { node: pipe.node }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses capacities that follow states: their nodes have another balance than heat alone.
+pub(super) fn check_capacities(network: &Network) -> Result<(), NoTangents> {
+    match network.state_capacities().first() {
+        Some(of) => Err(NoTangents::Mass { node: of.node }),
         None => Ok(()),
     }
 }

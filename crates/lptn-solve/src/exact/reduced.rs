@@ -233,7 +233,7 @@ fn first_beyond(network: &Network) -> Option<Item> {
     let linear = |id| network.conductance(id).is_some() || is_stream(network, id);
     let conductor = network.conductor_ids().find(|&id| !linear(id)).map(Item::Conductor);
     let source = network.source_ids().find(|id| !network.source_variables(*id).is_empty());
-    let node = network.node_ids().find(|id| network.enthalpy(*id).is_some());
+    let node = network.first_varying_capacity();
     conductor.or(source.map(Item::Source)).or(node.map(Item::Node))
 }
 

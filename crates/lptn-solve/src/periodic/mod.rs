@@ -185,7 +185,7 @@ fn check_balance(cycles: &mut Cycles<'_>) -> Result<(), PeriodicError> {
     let solution = cycles.first()?;
     let ledger = solution.ledger();
     for Island { nodes, .. } in islands {
-        let heat: f64 = nodes.iter().map(|id| ledger.stored[id.index()]).sum();
+        let heat: f64 = nodes.iter().map(|id| ledger.warmed(cycles.system.network(), *id)).sum();
         if heat.abs() > REAL * ledger.bound * ledger.turned_over {
             let network = cycles.system.network();
             let names = nodes.iter().map(|id| network.nodes()[id.index()].name.clone()).collect();

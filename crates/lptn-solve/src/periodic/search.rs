@@ -287,10 +287,7 @@ fn linear(system: &ThermalSystem) -> bool {
         matches!(network.flow(id), ConductorFlow::Conductance(_) | ConductorFlow::Stream(_))
     });
     let sources = network.source_ids().all(|id| network.source_variables(id).is_empty());
-    !network.has_events()
-        && paths
-        && sources
-        && network.node_ids().all(|id| network.enthalpy(id).is_none())
+    !network.has_events() && paths && sources && network.first_varying_capacity().is_none()
 }
 
 /// Sum of a residual and the rounding of a temperature if all of it decays as slowly as the slowest

@@ -10,6 +10,18 @@ use crate::state::State;
 use crate::transient::Run;
 
 impl Run<'_> {
+    /// Change of the heat content of each node whose capacity follows states, in J; NaN, which
+    /// breaks the energy balance, if a capacity has no value.
+    fn filled(&self) -> Vec<f64> {
+        let system = self.recorder.system();
+        let mut work = system.workspace();
+        let count = system.network().state_capacities().len();
+        let mut at =
+            |y: &[f64]| system.contents(&mut work, y).unwrap_or_else(|_| vec![f64::NAN; count]);
+        let (before, now) = (at(&self.initial), at(self.integrator.state()));
+        now.iter().zip(before).map(|(now, before)| now - before).collect()
+    }
+
     pub(super) fn finish(mut self, end: RunStatus) -> Result<Solution, TransientError> {
         let (growth, system) = (self.errors_grow(), self.recorder.system());
         let unresolved = self.guard.as_ref().and_then(Guard::unresolved);
@@ -19,6 +31,9 @@ impl Run<'_> {
             if system.network().is_thermal(*id) {
                 stored[id.index()] = capacity * (now - before);
             }
+        }
+        for (of, heat) in system.network().state_capacities().iter().zip(self.filled()) {
+            stored[of.node.index()] = heat;
         }
         let pipes = self.pipes.as_ref().map(|pipes| pipes.borrow());
         for (pipe, heat) in
