@@ -4,8 +4,9 @@
 use lptn_units::{Dimension, Type, Unit};
 
 use crate::diagnostic::{Diagnostic, Severity};
-use crate::dialect::{Dialect, bracketless};
+use crate::dialect::{Dialect, Maker, bracketless};
 use crate::file::{FileId, Span};
+use crate::gap::{OVERLOAD, is_overload};
 use crate::hints::Codes;
 use crate::numeral::{Decimal, foreign};
 use crate::reader::{Reader, line, position};
@@ -42,6 +43,9 @@ pub(crate) struct Head {
     pub(crate) place: Span,
     pub(crate) dialect: Dialect,
 }
+
+/// Ends of the names of columns of PicoLog 6.
+const PICOLOG: [&str; 4] = [" Last", " Ave.", " Min.", " Max."];
 
 /// A column of numbers of a CSV file.
 #[derive(Debug)]
@@ -126,6 +130,34 @@ impl Head {
                 (header.unit, header.below) = (Some(unit.to_owned()), true);
             }
         }
+    }
+
+    /// Gives the columns of this name the unit of a line of units, seconds.
+    pub(crate) fn in_seconds(&mut self, name: &str) {
+        for header in self.columns.iter_mut().filter(|header| header.name == name) {
+            (header.unit, header.below) = (Some("s".to_owned()), true);
+        }
+    }
+
+    /// Takes the units of PicoLog, in whose names `C` is never coulomb: `ring Ave. (C)`. Its first
+    /// column, of the times, has no name.
+    pub(crate) fn picolog(&mut self) {
+        if self.columns.first().is_none_or(|first| !first.written.is_empty()) {
+            return;
+        }
+        for header in self.columns.iter_mut().filter(|header| header.unit.is_none()) {
+            let name = header.written.strip_suffix("(C)").map(str::trim_end);
+            if let Some(name) = name.filter(|name| PICOLOG.iter().any(|end| name.ends_with(end))) {
+                (header.name, header.unit) = (name.to_owned(), Some("degC".to_owned()));
+                self.dialect.maker = Some(Maker::PicoLog);
+            }
+        }
+    }
+
+    /// The fewest cells of a whole row.
+    pub(crate) fn least(&self) -> usize {
+        let remark = self.columns.last().zip(self.dialect.remark);
+        self.columns.len() - usize::from(remark.is_some_and(|(last, name)| last.name == name))
     }
 
     /// Takes the units of `ring (°C)` and `ring/°C` from the names without another unit.
@@ -281,7 +313,8 @@ pub(crate) fn number(cell: &str, decimal: Decimal) -> Result<f64, Wrong> {
         Ok(_) if decimal == Decimal::Comma && cell.contains('.') => {
             foreign(cell, decimal).ok_or(Wrong::Text)
         }
-        Ok(number) if number.is_finite() => Ok(number + 0.0), // -0 is 0
+        Ok(number) if number.abs() < OVERLOAD => Ok(number + 0.0), // -0 is 0
+        Ok(number) if number.is_finite() && !is_overload(number) => Ok(number),
         Ok(_) => Err(Wrong::NotFinite),
         Err(_) => foreign(cell, decimal).ok_or(Wrong::Text),
     }

@@ -1,7 +1,7 @@
 //! The header of a file in any dialect.
 
 use crate::diagnostic::Diagnostic;
-use crate::dialect::{Dialect, detect, is_value};
+use crate::dialect::{Dialect, detect, is_value, known};
 use crate::file::Span;
 use crate::form::plain_header;
 use crate::head::{Asked, Head, row};
@@ -26,7 +26,8 @@ pub(crate) fn open(
     (codes, example): (&'static Codes, &str),
 ) -> Result<Head, Diagnostic> {
     let plain = plain_header(text, (codes, example));
-    if plain.as_ref().is_ok_and(|head| is_plain(head, text)) && options.decimal.is_none() {
+    let own = |head: &Head| known(&text.text).is_none() && is_plain(head, text);
+    if plain.as_ref().is_ok_and(own) && options.decimal.is_none() {
         return plain.and_then(|head| head.with_units(options));
     }
     let mut head = match detect(&text.text) {
@@ -62,6 +63,7 @@ fn foreign_header(text: &CsvText, dialect: Dialect, codes: &'static Codes) -> He
     let mut reader = Reader::header(&text.text, &dialect);
     let names = reader.next().unwrap_or_default();
     let mut head = Head::new(text.file, &row(names, &text.text), codes);
+    dialect.seconds.into_iter().for_each(|name| head.in_seconds(name));
     if let Some(units) = &dialect.units {
         let cells = Reader::at(&text.text, units.start, dialect.separator).next();
         head.take_units(&cells.unwrap_or_default());
@@ -76,7 +78,7 @@ pub(crate) fn decimal(
     text: &CsvText,
     options: &CsvOptions,
 ) -> Result<Decimal, Diagnostic> {
-    if let Some(decimal) = options.decimal {
+    if let Some(decimal) = options.decimal.or(head.dialect.stated) {
         return Ok(decimal);
     }
     let (mut points, mut commas, mut either) = (0_usize, 0_usize, None);
@@ -123,6 +125,7 @@ fn undecided(head: &Head, (cell, place): (String, Span)) -> Diagnostic {
 impl Head {
     /// The header with the units that were given for its columns.
     fn with_units(mut self, options: &CsvOptions) -> Result<Self, Diagnostic> {
+        self.picolog();
         if self.codes().of_record {
             self.split_units();
         }

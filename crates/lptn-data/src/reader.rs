@@ -32,6 +32,7 @@ impl<'t> Reader<'t> {
 
     /// Before the first row.
     pub(crate) fn rows(text: &'t str, dialect: &Dialect) -> Self {
+        let text = dialect.end.and_then(|end| text.get(..end)).unwrap_or(text);
         if let Some(rows) = dialect.rows {
             return Self::at(text, rows, dialect.separator);
         }

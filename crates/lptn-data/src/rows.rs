@@ -38,8 +38,12 @@ impl<'s> CsvRows<'s> {
     ///
     /// # Errors
     /// The error of its form.
-    pub fn open(text: &'s CsvText, asked: Asked, example: &str) -> Result<Self, Diagnostic> {
-        let head = open(text, &CsvOptions::default(), (hints::NETLIST, example));
+    pub fn open(
+        text: &'s CsvText,
+        (asked, options): (Asked, &CsvOptions),
+        example: &str,
+    ) -> Result<Self, Diagnostic> {
+        let head = open(text, options, (hints::NETLIST, example));
         let mut head = head.map_err(|problem| asked.also(problem))?;
         head.split_units();
         let (reader, record) = (head.reader(&text.text), csv::StringRecord::new());

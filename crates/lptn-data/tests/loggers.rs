@@ -116,6 +116,90 @@ fn series_2680_of_fluke() {
     assert_eq!(columns(&record), [("101", vec![24.9, 25.3, 26.0, 26.9]), ("102", LID.to_vec())]);
 }
 
+const RING: [f64; 4] = [24.9, 25.3, 26.0, 26.9];
+const LID_WITH_GAP: [f64; 4] = [25.1, -1.0, 25.2, 25.3];
+
+/// Two headers, units in `Y_Unit_Label` of the second, `X_Value` in the seconds of `X_Dimension`, a
+/// comment in the first row only, a decimal comma that the header states: 1,234 V is no thousand.
+/// National Instruments, Specification for the LabVIEW Measurement File (.lvm).
+#[test]
+fn lvm_of_labview() {
+    let (record, _) = read("labview.lvm", CsvOptions::default()).unwrap();
+    assert_eq!(record.time, [0.0, 0.5, 1.0, 1.5]);
+    let expected = [("Ring", RING.to_vec()), ("Lid", LID_WITH_GAP.to_vec())];
+    assert_eq!(columns(&record), expected);
+    assert_eq!(record.column("Heater").unwrap().values, [1.234; 4]);
+    assert_eq!(record.column("Lid").unwrap().gaps, 1);
+    assert!(note(&record).contains("with the header of LabVIEW, tabs"), "{}", note(&record));
+}
+
+/// Without columns of X there are no times, and a second segment is not a row.
+#[test]
+fn lvm_without_times_or_with_two_segments_is_refused() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/loggers/labview.lvm");
+    let text = std::fs::read_to_string(path).unwrap();
+    let bare = ["0,000000", "0,500000", "1,000000", "1,500000"]
+        .iter()
+        .fold(text.clone(), |text, time| text.replace(&format!("\r\n{time}\t"), "\r\n\t"));
+    let (code, _, help) = code(&bare, CsvOptions::default());
+    assert_eq!(code, "record::row_without_time");
+    assert!(help.contains("X_Columns No"), "{help}");
+    let segment = text.split_once("\t\r\nChannels").unwrap().1;
+    let twice = format!("{text}Channels{segment}");
+    let refused = of(&twice, CsvOptions::default()).unwrap_err();
+    assert!(!refused.diagnostics.is_empty());
+}
+
+/// A first column without a name, ISO 8601 with an offset, `C` for degC, a cell left empty. PicoLog 6;
+/// its columns `Ave. (C)`, `Last (C)` are those in the tests of yadg.
+#[test]
+fn picolog_of_pico_technology() {
+    let (record, _) = read("picolog.csv", CsvOptions::default()).unwrap();
+    assert_eq!(record.time, [0.0, 1.0, 2.0, 3.0]);
+    let expected = [
+        ("Ring Ave.", RING.to_vec()),
+        ("Lid Ave.", LID_WITH_GAP.to_vec()),
+        ("Lid Last", vec![25.11, 25.12, 25.23, 25.34]),
+    ];
+    assert_eq!(columns(&record), expected);
+    assert!(note(&record).contains("with `C` as degC, 0 s at"), "{}", note(&record));
+}
+
+/// Lines `Ch`, `Ch Id`, `Tag`, `Unit`, `Type`, `Kind` above the rows, a count of messages in the last
+/// column, the messages below the rows, `+OVER`. Yokogawa, GX10/GX20/GP10/GP20 User's Manual,
+/// IM 04L51B01-01EN, appendix on text files.
+#[test]
+fn gm10_of_yokogawa() {
+    let (record, _) = read("yokogawa.txt", CsvOptions::default()).unwrap();
+    assert_eq!(record.time, [0.0, 1.0, 2.0, 3.0]);
+    let expected = [("0001", RING.to_vec()), ("0002", LID_WITH_GAP.to_vec())];
+    assert_eq!(columns(&record), expected);
+    assert_eq!(record.column("0003").unwrap().values, [1.234; 4]);
+    assert!(note(&record).contains("the header of a Yokogawa recorder"), "{}", note(&record));
+}
+
+/// As above with labels below the units, a day above 12, and the number of SCPI for an overload
+/// (SCPI 1999.0, volume 1, section 7.2.1), which is not a temperature.
+#[test]
+fn series_2680_of_fluke_with_labels() {
+    let (record, _) = read("fluke_labels.csv", CsvOptions::default()).unwrap();
+    assert_eq!(record.time, [0.0, 1.0, 2.0, 3.0]);
+    assert_eq!(columns(&record), [("101", RING.to_vec()), ("102", LID_WITH_GAP.to_vec())]);
+}
+
+#[test]
+fn missing_values_are_holes_and_never_numbers() {
+    for hole in
+        ["NAN", "OL", "--", "---", "+OVER", "-OVER", "overrange", "9.9E+37", "-9.9E37", "9.91E37"]
+    {
+        let text = format!("t [s],ring [degC]\n0,20\n1,{hole}\n2,21\n3,22\n");
+        let record = of(&text, CsvOptions::default()).unwrap();
+        assert!(record.columns[0].values[1].is_nan() && record.columns[0].gaps == 1, "{hole}");
+        let told = record.warnings.iter().any(|warning| warning.code == "record::gaps");
+        assert!(told, "{hole}: {:?}", record.warnings);
+    }
+}
+
 /// Semicolons, decimal commas, thousands with points, Windows-1252, date and clock in two columns.
 #[test]
 fn a_german_logger() {

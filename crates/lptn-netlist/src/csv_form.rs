@@ -1,10 +1,14 @@
 //! Keys that say how a CSV file is written, next to the key that names it.
+//!
+//! A table or signal has them among its own keys. Wherever else a netlist names a file (`[import]`,
+//! catalogues, sweeps, records) it is a string, or a table of the file with these keys: [`FILE`].
+//! `dates` and `start` are only for files with times.
 
 use lptn_data::{CsvOptions, DATE_ORDERS, DECIMALS, DateOrder, Decimal, Diagnostic};
 use lptn_units::Unit;
 
 use crate::fields::Owner;
-use crate::format::{KeyDeclaration, Takes, shaped, text, words, words_of};
+use crate::format::{KeyDeclaration, SectionDeclaration, Takes, shaped, text, words, words_of};
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 use crate::toml_text::{TomlFields, key as toml_key, string};
 
@@ -35,6 +39,36 @@ pub(crate) const UNITS: KeyDeclaration = shaped(
     "with `csv`: the units of columns whose header does not give them",
     "{ ring = \"degC\" }",
 );
+
+/// Reason why a file of plain rows has no `dates` or `start`.
+const NO_TIMES: &str = "rows here have no dates or clock times: remove it";
+
+/// A file without times, with statements about its form: `{ csv = "parts.csv", decimal = "," }`.
+pub(crate) const FILE: SectionDeclaration = SectionDeclaration {
+    name: "file",
+    keys: &[text("csv", "file", "the file", "\"parts.csv\"").needed(), DECIMAL, UNITS],
+    example: "{ csv = \"parts.csv\", decimal = \",\" }",
+    elsewhere: &[
+        (DATES.name, NO_TIMES),
+        (START.name, NO_TIMES),
+        ("separator", SEPARATOR),
+        ("delimiter", SEPARATOR),
+        ("encoding", "lptn finds the encoding: remove it"),
+        ("file", "the name of the file is `csv`"),
+        ("unit", "the units of columns are `units = { C = \"J/K\" }`"),
+    ],
+    ..SectionDeclaration::NEW
+};
+
+/// The sign between columns is never stated.
+const SEPARATOR: &str = "the rows show the sign between columns: remove it";
+
+/// The name of a file, alone or with its form.
+pub(crate) const FORMED: Takes = Takes::Either(&[Takes::Text, Takes::Table(&FILE)]);
+
+/// One such file, or a list of them.
+pub(crate) const FORMED_FILES: Takes =
+    Takes::Either(&[Takes::Text, Takes::Table(&FILE), Takes::list(&FORMED)]);
 
 /// The names of these keys.
 pub(crate) const KEYS: [&str; 4] = [DECIMAL.name, DATES.name, START.name, UNITS.name];
@@ -110,8 +144,30 @@ fn word<T: Copy>(words: &[(&str, T)], text: &str) -> Option<T> {
     words.iter().find(|(word, _)| *word == text).map(|(_, value)| *value)
 }
 
+/// A file as it is read: its name, or a table if its form is stated.
+pub(crate) fn written(csv: &str, options: &CsvOptions) -> String {
+    written_with(csv, options, ("", Vec::new()))
+}
+
+/// The same with the entries of one more key.
+pub(crate) fn written_with(
+    csv: &str,
+    options: &CsvOptions,
+    (key, entries): (&str, Vec<String>),
+) -> String {
+    let csv = string(csv);
+    if entries.is_empty() && *options == CsvOptions::default() {
+        return csv;
+    }
+    let mut fields = TomlFields::default();
+    fields.put("csv", &csv);
+    fields.table(key, entries.into_iter());
+    put(options, &mut fields);
+    fields.inline()
+}
+
 /// Writes the statements as they are read.
-pub(crate) fn put(options: &CsvOptions, fields: &mut TomlFields) {
+fn put(options: &CsvOptions, fields: &mut TomlFields) {
     let of_decimal = |decimal: Decimal| DECIMALS.iter().find(|(_, other)| *other == decimal);
     let of_dates = |dates: DateOrder| DATE_ORDERS.iter().find(|(_, other)| *other == dates);
     fields.maybe("decimal", options.decimal.and_then(of_decimal).map(|(word, _)| string(word)));

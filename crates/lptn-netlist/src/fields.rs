@@ -265,7 +265,8 @@ fn element_inside(
         ))
 }
 
-fn unknown(section: &SectionDeclaration, owner: &Owner, field: &RawEntry) -> Diagnostic {
+/// Error for a key that a section does not have.
+pub(crate) fn unknown(section: &SectionDeclaration, owner: &Owner, field: &RawEntry) -> Diagnostic {
     let key = &field.key;
     if section.later.contains(&key.as_str()) {
         let message = format!("{} is not supported yet", owner.field(key));

@@ -44,6 +44,7 @@ mod fields;
 mod fit;
 mod foreign;
 mod format;
+mod formed_file;
 mod foster;
 mod functional;
 mod gearbox;

@@ -10,6 +10,7 @@
 mod bad;
 #[path = "support/cpu.rs"]
 mod cpu;
+mod csv_form;
 mod elements;
 mod expand;
 mod films;

@@ -11,13 +11,17 @@ use crate::belief::Belief;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{self, Input};
+use crate::listener::Listener;
 
 /// Every file with every variant of it.
-pub(super) fn jobs(args: &CompareQuestion) -> Result<Vec<(PathBuf, Variant)>, Failure> {
+pub(super) fn jobs(
+    args: &CompareQuestion,
+    listener: &dyn Listener,
+) -> Result<Vec<(PathBuf, Variant)>, Failure> {
     let sets = of_sets(&args.set).ok_or_else(|| too_many("--set"))?;
     let mut jobs = Vec::new();
     for file in &args.files {
-        let all = variants::with_parts(file, &args.parts, &sets)?;
+        let all = variants::with_parts(file, &args.parts, (&sets, listener))?;
         let all = all.ok_or_else(|| too_many("--parts"))?;
         let all = if args.cases { variants::in_cases(file, &all) } else { all };
         jobs.extend(all.into_iter().map(|variant| (file.clone(), variant)));

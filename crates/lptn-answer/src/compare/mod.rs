@@ -59,7 +59,7 @@ impl CompareQuestion {
     /// A value, part or unit that fits no candidate, and too many variants.
     pub fn ask(&self, listener: &dyn Listener) -> Result<CompareAnswer, Failure> {
         let threads = self.threads.unwrap_or_else(available_threads);
-        let jobs = jobs(self)?;
+        let jobs = jobs(self, listener)?;
         let belief = self.posterior.as_deref().map_or(Belief::Named, Belief::Shared);
         let loaded = in_parallel(&jobs, threads, |(file, variant)| load(file, variant, &belief));
         used(&self.set, &loaded)?;

@@ -3,12 +3,13 @@
 
 use std::path::{Path, PathBuf};
 
-use lptn_netlist::{Catalogue, Diagnostic};
+use lptn_netlist::{Catalogue, CsvOptions, Diagnostic};
 
 use crate::belief::Belief;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::listener::Listener;
 
 /// Most variants of one netlist; more are a matter for a sweep.
 pub(super) const MOST: usize = 1000;
@@ -55,7 +56,7 @@ pub fn of_sets(set: &[String]) -> Option<Vec<Variant>> {
 pub(super) fn with_parts(
     file: &Path,
     tables: &[PathBuf],
-    variants: &[Variant],
+    (variants, listener): (&[Variant], &dyn Listener),
 ) -> Result<Option<Vec<Variant>>, Failure> {
     let mut all = variants.to_vec();
     if tables.is_empty() {
@@ -68,7 +69,8 @@ pub(super) fn with_parts(
             let message = format!("cannot read {name}: {error}");
             Failure::new(Exit::Input, Diagnostic::error("input::cannot_read", message))
         })?;
-        let parts = input.netlist.parts(&name, &bytes)?;
+        let (parts, files) = input.netlist.parts((&name, &bytes), &CsvOptions::default())?;
+        parts.note.iter().for_each(|note| listener.warn(&files, std::slice::from_ref(note)));
         if all.len() * parts.parts.len() > MOST {
             return Ok(None);
         }

@@ -2,9 +2,8 @@
 
 use std::ops::Range;
 
-use crate::dialect::Dialect;
 use crate::dialect::sample::{cells, is_hole, is_value, lines};
-use crate::numeral::Decimal;
+use crate::dialect::{Dialect, known};
 use crate::spelling::is_unit;
 
 /// The signs that may part columns, the most likely first.
@@ -28,16 +27,17 @@ struct Sheet<'t> {
 
 /// The dialect of a text; `None` if its first lines show no header above rows of values.
 pub(crate) fn detect(text: &str) -> Option<Dialect> {
+    known(text).or_else(|| shown(text))
+}
+
+/// The dialect that the rows show.
+fn shown(text: &str) -> Option<Dialect> {
     let lines = lines(text);
-    let mut best: Option<Sheet<'_>> = None;
-    for separator in SEPARATORS {
-        if let Some(sheet) = Sheet::of(text, &lines, separator)
-            && best.as_ref().is_none_or(|best| sheet.score > best.score)
-        {
-            best = Some(sheet);
-        }
-    }
-    best?.dialect()
+    let sheets = SEPARATORS.iter().filter_map(|separator| Sheet::of(text, &lines, *separator));
+    let mut sheets: Vec<Sheet<'_>> = sheets.collect();
+    // of `a;air;1,5`, cut by commas, more of the cells are numbers
+    sheets.sort_by(|a, b| b.score.total_cmp(&a.score));
+    sheets.iter().find_map(Sheet::dialect)
 }
 
 impl<'t> Sheet<'t> {
@@ -125,11 +125,11 @@ impl<'t> Sheet<'t> {
         }
         Some(Dialect {
             separator: self.separator,
-            decimal: Decimal::Point,
             start: if header == 0 { 0 } else { self.lines[header].start },
             titles: header,
             units: units.map(|line| self.lines[line].clone()),
             rows,
+            ..Dialect::PLAIN
         })
     }
 }

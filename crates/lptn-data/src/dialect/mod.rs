@@ -4,9 +4,10 @@
 //! A file in lptn's own form (names with units, commas, decimal points, no other lines) is not
 //! searched: its first three rows show that it is one. In any other file the last lines of the
 //! beginning are rows of numbers; they show the separator, and the header is the nearest line of
-//! names above the first of them.
+//! names above the first of them. A few makers name the form in the first line (`makers`).
 
 mod detect;
+mod makers;
 mod sample;
 
 use std::ops::Range;
@@ -15,6 +16,7 @@ use crate::numeral::Decimal;
 use crate::text::CsvText;
 
 pub(crate) use detect::{bracketless, detect};
+pub(crate) use makers::{Maker, known};
 pub(crate) use sample::is_value;
 
 /// The form of the columns, numbers and lines of a file.
@@ -31,6 +33,15 @@ pub(crate) struct Dialect {
     pub(crate) units: Option<Range<usize>>,
     /// The byte at which the rows begin, if not below the header.
     pub(crate) rows: Option<usize>,
+    /// The byte at which the rows end, if not at the end of the text.
+    pub(crate) end: Option<usize>,
+    /// The decimal sign that the file states.
+    pub(crate) stated: Option<Decimal>,
+    /// The name of columns in seconds.
+    pub(crate) seconds: Option<&'static str>,
+    /// The name of a last column that rows may leave out.
+    pub(crate) remark: Option<&'static str>,
+    pub(crate) maker: Option<Maker>,
 }
 
 impl Dialect {
@@ -42,6 +53,11 @@ impl Dialect {
         titles: 0,
         units: None,
         rows: None,
+        end: None,
+        stated: None,
+        seconds: None,
+        remark: None,
+        maker: None,
     };
 
     /// Words for everything that is not lptn's own form.
@@ -63,6 +79,7 @@ impl Dialect {
             titles => Some(format!("{titles} lines above the header left out")),
         };
         let units = self.units.as_ref().map(|_| "units in a line of their own".to_owned());
-        [separator, decimal, encoding, titles, units].into_iter().flatten().collect()
+        let maker = self.maker.map(|maker| maker.told().to_owned());
+        [maker, separator, decimal, encoding, titles, units].into_iter().flatten().collect()
     }
 }

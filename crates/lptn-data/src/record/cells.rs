@@ -62,7 +62,7 @@ impl Cells {
         let (head, nobody) = (&self.head, Asked::default());
         if let Some(extra) = head.extra(row, &nobody) {
             self.lengths.add(|| extra);
-        } else if row.cells.len() < head.columns.len() {
+        } else if row.cells.len() < head.least() {
             self.lengths.add(|| head.short(row, (&nobody, example)));
         } else {
             return true;

@@ -2,6 +2,7 @@
 
 use crate::clock::Clock;
 use crate::diagnostic::Diagnostic;
+use crate::dialect::Maker;
 use crate::form::plain_header;
 use crate::head::{Asked, CsvColumn, Head, Row, Wrong, number, row};
 use crate::hints;
@@ -111,7 +112,7 @@ impl<'t> Work<'t> {
     /// switched off.
     fn has_its_cells(&mut self, row: &Row, last: bool) -> bool {
         let (cells, columns) = (row.cells.len(), self.cells.head.columns.len());
-        if last && cells < columns {
+        if last && cells < self.cells.head.least() {
             let message = format!("this row has {cells} of {columns} values: it is left out");
             let warning = Diagnostic::warning("record::broken_off", message)
                 .at(row.whole(self.record.file), "the file breaks off here");
@@ -127,7 +128,12 @@ impl<'t> Work<'t> {
         if is_gap(row.cell(index), wrong) {
             return Diagnostic::error("record::row_without_time", "this row has no time")
                 .at(row.place(self.record.file, index), "")
-                .help("remove the row: its time is not known");
+                .help(match self.cells.head.dialect.maker {
+                    Some(Maker::LabView) => {
+                        "`X_Columns No` leaves the times out: save the file with one X column"
+                    }
+                    _ => "remove the row: its time is not known",
+                });
         }
         let problem = self.cells.head.no_number(row, (index, wrong), &Asked::default());
         match row.cell(index).chars().any(|c| c.is_ascii_digit()) {

@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use lptn_data::{CsvOptions, Diagnostic, Record, RecordName, RecordQuery, read_text};
+use lptn_data::{Diagnostic, Record, RecordName, RecordQuery, read_text};
 use lptn_network::{Context, Value};
 use lptn_units::Scope as _;
 
-use crate::csv_form;
 use crate::fields::{Fields, Owner, wrong_shape};
 use crate::fit::read::Column;
 use crate::fit::{FitRecord, FitSignal, RECORD, VariedName};
+use crate::formed_file::FormedFile;
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::work::Elaboration;
@@ -70,40 +70,18 @@ impl<'a> Elaboration<'a> {
         item: &'a RawValue,
         query: &RecordQuery,
     ) -> Option<FitRecord> {
-        let mut set = Vec::new();
-        let (mut sound, mut form) = (true, CsvOptions::default());
-        if let RawKind::Table(table) = &item.kind {
-            let (options, wrong) = csv_form::options(table);
-            form = options;
-            for wrong in wrong {
-                let problem = wrong.told(&fields.owner.inside("data"));
-                self.report(problem);
-                sound = false;
-            }
-            for entry in &table.entries {
-                sound &= match entry.key.as_str() {
-                    "csv" => true,
-                    key if csv_form::KEYS.contains(&key) => true,
-                    "set" => {
-                        let owner = fields.owner.inside("data").inside("set");
-                        self.parameters_set(&owner, entry, &mut set)
-                    }
-                    key => {
-                        self.report(unknown_key(fields, entry, key));
-                        false
-                    }
-                };
-            }
+        let named = self.formed_file(fields, ("data", &RECORD), item);
+        let (mut set, mut sound) = (Vec::new(), true);
+        if let RawKind::Table(table) = &item.kind
+            && let Some(entry) = table.get("set")
+        {
+            let owner = fields.owner.inside("data").inside("set");
+            sound = self.parameters_set(&owner, entry, &mut set);
         }
-        let Some((text, raw)) = item.file() else {
-            if sound {
-                self.report(fields.wrong_shape("data", item, "a CSV file or a table with `csv`"));
-            }
-            return None;
-        };
-        let query = RecordQuery { csv: form.clone(), ..query.clone() };
-        let record = self.fit_file(raw, &query)?;
-        sound.then(|| FitRecord { csv: text.to_owned(), record, set, form, span: raw.span.clone() })
+        let FormedFile { csv, raw, options: form, .. } = named?;
+        let record = self.fit_file(raw, &RecordQuery { csv: form.clone(), ..query.clone() })?;
+        let (csv, span) = (csv.to_owned(), raw.span.clone());
+        sound.then_some(FitRecord { csv, record, set, form, span })
     }
 
     /// The record that a value names. Without columns to read, its contents cannot be checked.
@@ -176,13 +154,6 @@ impl<'a> Elaboration<'a> {
             }
         }
     }
-}
-
-fn unknown_key(fields: &Fields<'_>, entry: &RawEntry, key: &str) -> Diagnostic {
-    let message = format!("a record of {} has no field `{key}`", fields.owner.words());
-    let problem = Diagnostic::error("netlist::unknown_key", message)
-        .at(entry.key_span.clone(), "unknown key");
-    problem.help(RECORD.help_for(key))
 }
 
 fn twice(record: &FitRecord, first: &FitRecord) -> Diagnostic {

@@ -277,19 +277,12 @@ impl FitStudy {
     /// Writes the records and the results that their columns measured.
     pub(crate) fn put_read(&self, fields: &mut TomlFields, network: &Network, path: &PathFrom<'_>) {
         let record = |record: &FitRecord| {
-            let csv = string(&path(record.span.file, &record.csv));
-            let mut fields = TomlFields::default();
-            fields.put("csv", &csv);
+            let csv = path(record.span.file, &record.csv);
             let own = record.set.iter();
-            fields.table(
-                "set",
-                own.map(|(name, own)| {
-                    format!("{} = {}", toml_key(name), like(own, type_of(network, name)))
-                }),
-            );
-            csv_form::put(&record.form, &mut fields);
-            let plain = record.set.is_empty() && record.form == CsvOptions::default();
-            if plain { csv } else { fields.inline() }
+            let own = own.map(|(name, own)| {
+                format!("{} = {}", toml_key(name), like(own, type_of(network, name)))
+            });
+            csv_form::written_with(&csv, &record.form, ("set", own.collect()))
         };
         let records: Vec<String> = self.records.iter().map(record).collect();
         fields.put("data", format!("[{}]", records.join(", ")));

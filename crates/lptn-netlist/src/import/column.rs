@@ -4,8 +4,9 @@ use lptn_data::{CsvColumn, CsvRows, Diagnostic, MOST_PROBLEMS, Span};
 use lptn_network::{End, Input};
 use lptn_units::{Quantity, Type};
 
+use crate::csv_form::FILE;
 use crate::fields::Fields;
-use crate::import::{Contents, listed};
+use crate::import::Contents;
 use crate::place::Place;
 use crate::raw::RawValue;
 use crate::work::{Elaboration, stand_in};
@@ -22,7 +23,7 @@ impl<'a> Elaboration<'a> {
         else {
             return Vec::new();
         };
-        let files = listed(raw);
+        let files = raw.items();
         if files.is_empty() {
             self.report(fields.wrong_shape(contents.key, raw, "a CSV file, or a list of them"));
         }
@@ -47,11 +48,12 @@ impl<'a> Elaboration<'a> {
         contents: &Contents,
         raw: &'a RawValue,
     ) -> Option<CsvRows<'a>> {
-        fields.text(contents.key, raw, &mut self.problems)?;
-        let asked = Place { owner: &fields.owner, key: contents.key, raw }.asked();
+        let file = self.formed_file(fields, (contents.key, &FILE), raw)?;
+        let asked = Place { owner: &fields.owner, key: contents.key, raw: file.raw }.asked();
         let csv: &'a crate::csv_files::CsvFiles = self.csv;
-        let text = csv.text(raw)?.map_err(Diagnostic::clone);
-        let rows = self.kept(text.and_then(|text| CsvRows::open(text, asked, contents.example)))?;
+        let text = self.kept(csv.text(file.raw)?.map_err(Diagnostic::clone))?;
+        let rows = CsvRows::open(text, (asked, &file.options), contents.example);
+        let rows = self.kept(rows.map_err(|problem| file.explained(problem)))?;
         self.problems.extend(rows.note());
         let unknown = rows.unknown_columns(contents.columns);
         let known = unknown.is_empty();

@@ -12,8 +12,9 @@ use lptn_data::{CsvColumn, CsvRows};
 use lptn_network::{Field, Path};
 use lptn_units::{Dimension, Type};
 
+use crate::csv_form::FORMED_FILES;
 use crate::fields::{Fields, Owner};
-use crate::format::{FILES, Role, SectionDeclaration, shaped};
+use crate::format::{Role, SectionDeclaration, shaped};
 use crate::imported::{Kind, Places};
 use crate::raw::{RawKind, RawNetlist, RawValue};
 use crate::section::Initial;
@@ -32,19 +33,25 @@ pub(crate) const IMPORT: SectionDeclaration = SectionDeclaration {
         shaped(
             "nodes",
             NAMED,
-            FILES,
+            FORMED_FILES,
             "columns `name`, `C`, and `T0` if there is one",
             "\"nodes.csv\"",
         ),
-        shaped("boundaries", NAMED, FILES, "columns `name`, `T`", "\"boundaries.csv\""),
+        shaped("boundaries", NAMED, FORMED_FILES, "columns `name`, `T`", "\"boundaries.csv\""),
         shaped(
             "conductors",
             NAMED,
-            FILES,
+            FORMED_FILES,
             "columns `from`, `to`, and `name`; `G`, `R`, `Gr`, or `h` and `area`",
             "[\"lines.csv\", \"radiation.csv\"]",
         ),
-        shaped("sources", NAMED, FILES, "columns `into`, `P`, and `name`", "\"sources.csv\""),
+        shaped(
+            "sources",
+            NAMED,
+            FORMED_FILES,
+            "columns `into`, `P`, and `name`",
+            "\"sources.csv\"",
+        ),
     ],
     example: "{ nodes = \"nodes.csv\", conductors = \"conductors.csv\" }",
     elsewhere: &[
@@ -61,20 +68,8 @@ pub(crate) const IMPORT: SectionDeclaration = SectionDeclaration {
 
 /// The files that it names.
 pub(crate) fn files(raw: &RawNetlist) -> impl Iterator<Item = (&str, &RawValue)> {
-    raw.elements(IMPORT.name).iter().flat_map(|entry| listed(&entry.value)).filter_map(|value| {
-        match &value.kind {
-            RawKind::String { text, .. } => Some((text.as_str(), value)),
-            _ => None,
-        }
-    })
-}
-
-/// The items of a list, or the value itself.
-fn listed(value: &RawValue) -> &[RawValue] {
-    match &value.kind {
-        RawKind::Array(items) => items,
-        _ => std::slice::from_ref(value),
-    }
+    let keys = raw.elements(IMPORT.name).iter();
+    keys.flat_map(|entry| entry.value.items()).filter_map(RawValue::file)
 }
 
 /// The contents of a file: the key that names it, and its columns.

@@ -2,14 +2,17 @@
 
 use std::sync::Arc;
 
-use lptn_data::{Asked, CsvFile, CsvOptions, CsvText, Diagnostic, PlacedNumbers, Rejected, Span};
+use lptn_data::{
+    Asked, CsvFile, CsvOptions, CsvText, Diagnostic, Files, PlacedNumbers, Rejected, Span,
+};
 use lptn_network::Context;
 use lptn_units::{Scope as _, Type, Unit, suggest};
 
+use crate::csv_form::FILE;
 use crate::fields::Fields;
 use crate::names::ValueKind;
 use crate::netlist::Netlist;
-use crate::raw::{RawKind, RawValue};
+use crate::raw::RawValue;
 use crate::work::Elaboration;
 
 /// The column of the names of the parts, which is required.
@@ -28,6 +31,10 @@ pub struct Catalogue {
     pub csv: String,
     /// The place of its name.
     pub span: Span,
+    /// Statements about its form.
+    pub(super) options: CsvOptions,
+    /// The note about a file that is not in lptn's own form.
+    pub note: Option<Diagnostic>,
     /// The names of the parts, in file order; at least one, none twice.
     pub parts: Vec<String>,
     /// The parameters that a part sets.
@@ -54,13 +61,12 @@ type TypeOf<'a> = dyn FnMut(&str, &Span) -> Result<Type, Option<Diagnostic>> + '
 impl Catalogue {
     /// Reads the file that a place names.
     fn read(
-        csv: &str,
+        (csv, options): (&str, &CsvOptions),
         (text, span): (&CsvText, &Span),
         ty: &mut TypeOf<'_>,
     ) -> Result<Self, Vec<Diagnostic>> {
-        let file = Arc::new(
-            CsvFile::open(text, span, &CsvOptions::default()).map_err(|problem| vec![problem])?,
-        );
+        let file = CsvFile::open(text, span, options).map_err(|problem| vec![problem])?;
+        let (file, options) = (Arc::new(file), options.clone());
         let asked = Asked { words: String::new(), span: Some(span.clone()) };
         let mut problems = Vec::new();
         let parts = file.words(PART, &asked);
@@ -98,7 +104,8 @@ impl Catalogue {
         if !problems.is_empty() || !complete {
             return Err(problems);
         }
-        Ok(Self { csv: csv.to_owned(), span: span.clone(), parts, columns })
+        let (csv, span, note) = (csv.to_owned(), span.clone(), file.note(None));
+        Ok(Self { csv, span, options, note, parts, columns })
     }
 
     /// The assignments for `--set` that choose a part, by its position.
@@ -118,11 +125,15 @@ impl Catalogue {
 
 impl Netlist {
     /// Parts for this netlist: a table as `catalogue` of `[size.NAME]` names one, whose columns are
-    /// parameters.
+    /// parameters; `options` says how it is written.
     ///
     /// # Errors
     /// [`Rejected`] with every error of the table.
-    pub fn parts(&self, name: &str, bytes: &[u8]) -> Result<Catalogue, Rejected> {
+    pub fn parts(
+        &self,
+        (name, bytes): (&str, &[u8]),
+        options: &CsvOptions,
+    ) -> Result<(Catalogue, Files), Rejected> {
         let mut files = self.files.clone();
         let option = files.add(PARTS, name);
         let asked = Span::new(option, 0..name.len());
@@ -135,8 +146,12 @@ impl Netlist {
             }
         };
         let read = CsvText::of(&mut files, name.to_owned(), bytes).map_err(|problem| vec![problem]);
-        let read = read.and_then(|text| Catalogue::read(name, (&text, &asked), &mut ty));
-        read.map_err(|problems| Rejected::arranged(files, problems, 0))
+        let form = (name, options);
+        let read = read.and_then(|text| Catalogue::read(form, (&text, &asked), &mut ty));
+        match read {
+            Ok(catalogue) => Ok((catalogue, files)),
+            Err(problems) => Err(Rejected::arranged(files, problems, 0)),
+        }
     }
 }
 
@@ -161,28 +176,32 @@ impl<'a> Elaboration<'a> {
     /// The catalogues of a study; `None` if one is wrong, which is then reported.
     pub(super) fn catalogues(&mut self, fields: &Fields<'a>) -> Option<Vec<Catalogue>> {
         let Some(raw) = fields.get("catalogue") else { return Some(Vec::new()) };
-        let is_text = |item: &RawValue| matches!(item.kind, RawKind::String { .. });
-        let files: Vec<_> = raw.items().iter().filter_map(RawValue::file).collect();
-        if files.is_empty() || !raw.items().iter().all(is_text) {
+        if raw.items().is_empty() {
             self.report(fields.wrong_shape("catalogue", raw, "a CSV file or a list of them"));
             return None;
         }
-        let all: Vec<_> = files.iter().map(|file| self.catalogue(fields, *file)).collect();
+        let all: Vec<_> = raw.items().iter().map(|item| self.catalogue(fields, item)).collect();
         let all: Vec<Catalogue> = all.into_iter().collect::<Option<_>>()?;
         self.set_once(fields, &all)?;
         Some(all)
     }
 
-    fn catalogue(
-        &mut self,
-        fields: &Fields<'a>,
-        (csv, raw): (&str, &'a RawValue),
-    ) -> Option<Catalogue> {
+    fn catalogue(&mut self, fields: &Fields<'a>, item: &'a RawValue) -> Option<Catalogue> {
+        let named = self.formed_file(fields, ("catalogue", &FILE), item)?;
         let files: &'a crate::csv_files::CsvFiles = self.csv;
-        let text = self.kept(files.text(raw)?.map_err(Diagnostic::clone))?;
+        let text = self.kept(files.text(named.raw)?.map_err(Diagnostic::clone))?;
         let mut ty = |name: &str, place: &Span| self.set_by_part(fields, name, place);
-        let read = Catalogue::read(csv, (text, &raw.span), &mut ty);
-        read.map_err(|problems| self.problems.extend(problems)).ok()
+        let (form, place) = ((named.csv, &named.options), (text, &named.raw.span));
+        match Catalogue::read(form, place, &mut ty) {
+            Ok(catalogue) => {
+                self.problems.extend(catalogue.note.clone());
+                Some(catalogue)
+            }
+            Err(problems) => {
+                self.problems.extend(problems.into_iter().map(|one| named.explained(one)));
+                None
+            }
+        }
     }
 
     /// The type of the parameter that a column is named after.

@@ -10,8 +10,9 @@ use lptn_network::{
 };
 use lptn_units::{EvalError, Type};
 
+use crate::csv_form::{FORMED_FILES, written};
 use crate::format::{
-    FILES, Role, SectionDeclaration, Takes, akin, key, names, number, shaped, text, words, words_of,
+    Role, SectionDeclaration, Takes, akin, key, names, number, shaped, text, words, words_of,
 };
 use crate::raw::RawEntry;
 use crate::setting::Setting;
@@ -70,7 +71,7 @@ const SIZE: SectionDeclaration = SectionDeclaration {
         shaped(
             "catalogue",
             "file, or a list of files",
-            FILES,
+            FORMED_FILES,
             "parts to choose from, one a row, instead of `vary` or in addition to it",
             "\"parts.csv\"",
         ),
@@ -318,9 +319,10 @@ impl Study for SizeStudy {
             format!("{} = {{ from = {from}, to = {to} }}", toml_key(&range.name))
         };
         fields.table("vary", self.varied.iter().map(range));
-        let catalogues: Vec<String> =
-            self.catalogues.iter().map(|one| path(one.span.file, &one.csv)).collect();
-        fields.strings("catalogue", catalogues.iter().map(String::as_str));
+        let written = |one: &Catalogue| written(&path(one.span.file, &one.csv), &one.options);
+        let catalogues: Vec<String> = self.catalogues.iter().map(written).collect();
+        let any = !catalogues.is_empty();
+        fields.maybe("catalogue", any.then(|| format!("[{}]", catalogues.join(", "))));
         fields.strings("require", self.requirements.iter().map(|r| r.text.as_str()));
         if self.over != Over::Steady {
             fields.word("over", self.over.word());

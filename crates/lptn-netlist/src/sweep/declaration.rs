@@ -1,7 +1,8 @@
 //! The keys of `[sweep.NAME]`.
 
+use crate::csv_form::FORMED;
 use crate::format::{
-    NAMES, Role, SectionDeclaration, Takes, akin, key, shaped, text, whole, words, words_of,
+    NAMES, Role, SectionDeclaration, Takes, akin, key, shaped, whole, words, words_of,
 };
 use crate::sweep::{SweepMethod, SweepOver};
 
@@ -31,9 +32,10 @@ pub(crate) const SWEEP: SectionDeclaration = SectionDeclaration {
             "the values, or the range, of each parameter",
             "{ G = { from = \"1 W/K\", to = \"10 W/K\", points = 10 } }",
         ),
-        text(
+        shaped(
             "file",
             "file",
+            FORMED,
             "the candidates of `csv`, one a row: a column for each parameter",
             "\"candidates.csv\"",
         ),

@@ -7,7 +7,7 @@ mod plan;
 mod read;
 mod write;
 
-use lptn_data::{Diagnostic, Span};
+use lptn_data::{CsvOptions, Diagnostic, Span};
 use lptn_network::{Network, Value};
 
 use crate::format::SectionDeclaration;
@@ -68,6 +68,17 @@ pub struct SweepAxis {
     values: AxisValues,
 }
 
+/// The file of the candidates of a sweep.
+#[derive(Clone, Debug)]
+struct SweepFile {
+    /// Its name as it was written.
+    csv: String,
+    /// The place of its name.
+    span: Span,
+    /// Statements about its form.
+    options: CsvOptions,
+}
+
 /// One `[sweep.NAME]`.
 #[derive(Clone, Debug)]
 pub struct SweepStudy {
@@ -91,8 +102,8 @@ pub struct SweepStudy {
     pub reports: Vec<Measure>,
     /// The positions of two reports: the Pareto-optimal candidates in both are listed.
     pub front: Option<[usize; 2]>,
-    /// The file of the candidates as it was written, and its place.
-    file: Option<(String, Span)>,
+    /// The file of the candidates.
+    file: Option<SweepFile>,
 }
 
 impl Study for SweepStudy {

@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use lptn_data::{Asked, CsvFile, CsvOptions, Diagnostic, PlacedNumbers, Span, list};
+use lptn_data::{Asked, CsvFile, Diagnostic, PlacedNumbers, Span, list};
 use lptn_network::Value;
 use lptn_units::{Dimension, Type};
 
+use crate::csv_form::FILE;
 use crate::fields::Fields;
 use crate::listed::Names;
 use crate::place::Wanted;
@@ -13,7 +14,7 @@ use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::reading::all;
 use crate::sweep::axis::AxisValues;
 use crate::sweep::declaration::SWEEP;
-use crate::sweep::{Measure, SweepAxis, SweepMethod, SweepOver, SweepStudy};
+use crate::sweep::{Measure, SweepAxis, SweepFile, SweepMethod, SweepOver, SweepStudy};
 use crate::work::Elaboration;
 
 impl<'a> Elaboration<'a> {
@@ -25,13 +26,11 @@ impl<'a> Elaboration<'a> {
         self.require(&fields, "method")?;
         let method = self.choice(&fields, "method", &SweepMethod::WORDS)?;
         let sampling = self.sampling(&fields, method);
-        let file =
-            self.word(&fields, "file").map(|(text, raw)| (text.to_owned(), raw.span.clone()));
-        let axes = match method {
-            SweepMethod::Csv => self.csv_axes(&fields),
+        let (axes, file) = match method {
+            SweepMethod::Csv => self.csv_axes(&fields).unzip(),
             _ => {
                 self.refuse_keys(&fields, &["file"], "is for `method = \"csv\"`");
-                self.sweep_axes(&fields, method)
+                (self.sweep_axes(&fields, method), None)
             }
         };
         let period = self.sweep_period(&fields, over);
@@ -162,8 +161,8 @@ impl<'a> Elaboration<'a> {
     }
 
     /// The columns of the file, or those that `axes` lists.
-    fn csv_axes(&mut self, fields: &Fields<'a>) -> Option<Vec<SweepAxis>> {
-        let file = self.candidates(fields)?;
+    fn csv_axes(&mut self, fields: &Fields<'a>) -> Option<(Vec<SweepAxis>, SweepFile)> {
+        let (file, written) = self.candidates(fields)?;
         let wanted: Vec<(String, Span)> = match fields.get("axes") {
             None => self.all_columns(fields, &file)?,
             Some(_) => {
@@ -181,7 +180,8 @@ impl<'a> Elaboration<'a> {
             known.iter().map(|(name, ty, asked)| (name.as_str(), Some(*ty), asked)).collect();
         let columns = file.columns(&asked);
         let axes = known.into_iter().zip(columns);
-        all(axes.map(|(axis, column)| self.csv_axis(fields, axis, column)))
+        let axes = all(axes.map(|(axis, column)| self.csv_axis(fields, axis, column)))?;
+        Some((axes, written))
     }
 
     /// Every column of the file; each has to be a parameter.
@@ -208,14 +208,16 @@ impl<'a> Elaboration<'a> {
         others.is_empty().then_some(known)
     }
 
-    fn candidates(&mut self, fields: &Fields<'a>) -> Option<Arc<CsvFile>> {
+    fn candidates(&mut self, fields: &Fields<'a>) -> Option<(Arc<CsvFile>, SweepFile)> {
         let raw = self.require(fields, "file")?;
-        fields.text("file", raw, &mut self.problems)?;
+        let named = self.formed_file(fields, ("file", &FILE), raw)?;
         let csv: &'a crate::csv_files::CsvFiles = self.csv;
-        let text = self.kept(csv.text(raw)?.map_err(Diagnostic::clone))?;
-        let file = self.kept(CsvFile::open(text, &raw.span, &CsvOptions::default()))?;
+        let text = self.kept(csv.text(named.raw)?.map_err(Diagnostic::clone))?;
+        let (csv, span) = (named.csv.to_owned(), named.raw.span.clone());
+        let file = CsvFile::open(text, &span, &named.options);
+        let file = self.kept(file.map_err(|problem| named.explained(problem)))?;
         self.problems.extend(file.note(None));
-        Some(Arc::new(file))
+        Some((Arc::new(file), SweepFile { csv, span, options: named.options }))
     }
 
     fn csv_axis(

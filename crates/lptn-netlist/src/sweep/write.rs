@@ -3,17 +3,18 @@
 use lptn_network::{Network, Value};
 use lptn_units::{Dimension, Type};
 
+use crate::csv_form::written as written_file;
 use crate::study::{PathFrom, type_of};
 use crate::sweep::axis::AxisValues;
 use crate::sweep::{SweepMethod, SweepOver, SweepStudy};
-use crate::toml_text::{TomlFields, key, like, string, strings, value};
+use crate::toml_text::{TomlFields, key, like, strings, value};
 
 impl SweepStudy {
     pub(super) fn as_written(&self, network: &Network, path: &PathFrom<'_>) -> TomlFields {
         let mut fields = TomlFields::default();
         fields.word("method", self.method.word());
-        if let Some((file, span)) = &self.file {
-            fields.put("file", string(&path(span.file, file)));
+        if let Some(file) = &self.file {
+            fields.put("file", written_file(&path(file.span.file, &file.csv), &file.options));
         }
         fields.put("axes", self.axes_written(network));
         if self.method.is_sampled() {
