@@ -52,6 +52,7 @@ mod metamorphic;
 mod numbers;
 mod one_unit;
 mod outputs;
+mod over_time;
 mod own_units;
 #[path = "../../../tests/support/pages.rs"]
 mod pages;
