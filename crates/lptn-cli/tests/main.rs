@@ -12,6 +12,7 @@ mod balance;
 mod branches;
 mod browser;
 mod carried_on;
+mod case_signals;
 mod cases;
 mod common;
 mod compare;

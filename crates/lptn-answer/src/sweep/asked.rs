@@ -217,6 +217,7 @@ impl SweepAsked {
             "lptn": env!("CARGO_PKG_VERSION"),
             "inputs": hashes,
             "parameters": values,
+            "case": self.input.netlist.case(),
             "sweep": self.study().name,
             "header": self.header(),
         });
