@@ -1,6 +1,6 @@
 //! The trust in an answer.
 
-use lptn_network::{InputError, LimitId, Network};
+use lptn_network::{InputError, LimitId, Network, ReportId};
 use lptn_solve::{Beyond, Others, OutOfRange, Solution, SteadyState, Unbounded};
 
 /// Limits on the trust in numbers that a reader has to know. None of them is an error: an energy
@@ -30,6 +30,13 @@ pub enum Unresolved {
         /// Its possible error in SI units.
         by: f64,
     },
+    /// A report over the run.
+    Report {
+        /// The report.
+        report: ReportId,
+        /// Its possible error in SI units, of a life as a share of it.
+        by: f64,
+    },
     /// The mean of a column over a window.
     Mean {
         /// The name of the column.
@@ -45,6 +52,8 @@ impl Unresolved {
     fn all_of(solution: &Solution) -> Vec<Self> {
         let limits = solution.limits().iter().filter(|seen| seen.open > 0.0);
         let limits = limits.map(|seen| Self::Margin { limit: seen.limit, by: seen.open });
+        let reports = solution.reports_over_time().iter().filter(|seen| seen.open > 0.0);
+        let reports = reports.map(|seen| Self::Report { report: seen.report, by: seen.open });
         let means = solution.windows().iter().flat_map(|window| {
             let open = window.columns.iter().filter(|column| column.is_open());
             open.map(|column| Self::Mean {
@@ -53,7 +62,7 @@ impl Unresolved {
                 share: column.open,
             })
         });
-        limits.chain(means).collect()
+        limits.chain(reports).chain(means).collect()
     }
 }
 

@@ -117,13 +117,8 @@ pub fn apply(
         let Some(case) = cases.iter().find(|case| case.name == *name) else {
             return Err(no_case(netlist, text, name));
         };
-        let failed = |error: lptn_units::EvalError| {
-            let problem = Diagnostic::error(error.code(), format!("case `{name}`: {error}"));
-            let problem = problem.at(case.span.clone(), "");
-            Failure::at(Exit::Input, netlist.files.clone(), problem)
-        };
-        set = case.assignments(&netlist.network).map_err(failed)?;
-        netlist.set(&set)?;
+        let case = case.clone();
+        set = netlist.take_case(&case)?;
     }
     netlist.set(assignments)?;
     set.extend_from_slice(assignments);

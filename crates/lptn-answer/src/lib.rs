@@ -35,6 +35,7 @@ pub mod lumping;
 pub mod messages;
 pub mod modes;
 pub mod operating_point;
+mod over_time;
 pub mod period;
 pub mod plan;
 pub mod plot;

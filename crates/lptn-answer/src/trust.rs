@@ -2,7 +2,7 @@
 
 use lptn_analysis::{Trust, Unresolved};
 use lptn_netlist::{Diagnostic, Netlist};
-use lptn_network::{Item, ZERO_CELSIUS};
+use lptn_network::{Functional, Item, ZERO_CELSIUS};
 use lptn_report::{duration, significant};
 use lptn_solve::Beyond;
 
@@ -29,6 +29,20 @@ fn unresolved(netlist: &Netlist, open: &Unresolved) -> Diagnostic {
             );
             Diagnostic::warning("run::unresolved", message)
                 .at(netlist.source_map.name(Item::Limit(*id)), "")
+        }
+        Unresolved::Report { report: id, by } => {
+            let report = &netlist.network.reports()[id.index()];
+            let life = report.over_time.as_ref().is_some_and(|o| o.functional == Functional::Life);
+            let (by, unit) = match life {
+                true => (significant(100.0 * by, 2), "%".to_owned()),
+                false => (significant(*by, 2), report.ty.dimension.si_unit()),
+            };
+            let message = format!(
+                "`{}` changes faster than a run samples: report `{}` may be off by {by} {unit}",
+                report.text, report.name
+            );
+            Diagnostic::warning("run::unresolved", message)
+                .at(netlist.source_map.name(Item::Report(*id)), "")
         }
         Unresolved::Mean { column, window, share } => {
             let by = significant(100.0 * share, 2);

@@ -58,7 +58,7 @@ pub(crate) struct Source {
     /// Give a parameter a value; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     pub(crate) set: Vec<String>,
-    /// Take the parameters of a load case, [case.NAME]; --set goes before it
+    /// Take the parameters and signals of a load case, [case.NAME]; --set goes before it
     #[arg(long, value_name = "NAME")]
     pub(crate) case: Option<String>,
 }

@@ -12,6 +12,7 @@ mod balance;
 mod branches;
 mod browser;
 mod carried_on;
+mod case_signals;
 mod cases;
 mod common;
 mod compare;
@@ -52,6 +53,7 @@ mod metamorphic;
 mod numbers;
 mod one_unit;
 mod outputs;
+mod over_time;
 mod own_units;
 #[path = "../../../tests/support/pages.rs"]
 mod pages;

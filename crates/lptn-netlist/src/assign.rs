@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use lptn_data::{Diagnostic, FileId, Rejected, Span, on_borders};
+use lptn_data::{Diagnostic, FileId, Files, Rejected, Span, on_borders};
 use lptn_network::{
     BuildError, Course, Field, GridFace, Item, Material, Network, ParameterError, ParameterId,
     Parameters, SignalId, Value,
@@ -10,6 +10,7 @@ use lptn_network::{
 use lptn_units::{Expression, UnitErrorKind};
 
 use crate::RunSettings;
+use crate::case::CaseStudy;
 use crate::describe::describe;
 use crate::gearbox;
 use crate::netlist::Netlist;
@@ -50,6 +51,34 @@ impl Netlist {
             }
             Err(diagnostics) => Err(Rejected::arranged(files, diagnostics, 0)),
         }
+    }
+
+    /// Takes a load case: its signals, then its parameters, which are returned as
+    /// [`Netlist::set`] takes them.
+    ///
+    /// # Errors
+    /// All problems of its values.
+    pub fn take_case(&mut self, case: &CaseStudy) -> Result<Vec<String>, Rejected> {
+        let refused = |files: &Files, code, message: String| {
+            let problem = Diagnostic::error(code, format!("case `{}`: {message}", case.name));
+            Rejected::arranged(files.clone(), vec![problem.at(case.span.clone(), "")], 0)
+        };
+        let set = case.assignments(&self.network);
+        let set = set.map_err(|error| refused(&self.files, error.code(), error.to_string()))?;
+        self.network = case.with_signals(&self.network).map_err(|errors| {
+            let first = errors.0.first();
+            let code = first.map_or("network::not_finite", |first| first.code());
+            refused(&self.files, code, errors.to_string())
+        })?;
+        self.assigned = self.network.adopted(&self.assigned);
+        self.case = Some(case.name.clone());
+        self.set(&set)?;
+        Ok(set)
+    }
+
+    /// The name of the load case that was taken.
+    pub fn case(&self) -> Option<&str> {
+        self.case.as_deref()
     }
 
     /// The settings of `[run]` for a network with other parameters, if `--set` would take these:

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use lptn_data::{CsvFile, CsvOptions, CsvText, Diagnostic, Files, Span};
 
+use crate::case::CASE;
 use crate::csv_form::options;
 use crate::format::{NetlistFormat, Role};
 use crate::include::Loader;
@@ -48,7 +49,9 @@ impl CsvFiles {
         mut loader: Option<&mut Loader<'_>>,
     ) -> Self {
         let (mut named, mut matrices) = (Vec::new(), Vec::new());
-        let curves = |key: &str| matches!(format.role(key), Some(Role::Value | Role::Substance));
+        let curves = |key: &str| {
+            key == CASE.name || matches!(format.role(key), Some(Role::Value | Role::Substance))
+        };
         for entry in raw.top.entries.iter().filter(|entry| curves(&entry.key)) {
             if let RawKind::Table(table) = &entry.value.kind {
                 let elements = table.entries.iter().map(|element| &element.value);

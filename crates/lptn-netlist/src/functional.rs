@@ -163,4 +163,4 @@ impl Elaboration<'_> {
 }
 
 const ELSEWHERE: &str = "put it around the whole `of` of `[limit]`, a whole side of `require` or a \
-                         report of `[sweep]`";
+                         whole report of `[run]` or `[sweep]`";

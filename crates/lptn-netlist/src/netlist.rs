@@ -13,6 +13,7 @@ use lptn_network::{Network, Parameters, RunSettings, Value};
 use lptn_units::Unit;
 
 use crate::assumed;
+use crate::case;
 use crate::csv_files::CsvFiles;
 use crate::elaborate::{Elaborated, elaborate};
 use crate::foreign;
@@ -63,6 +64,8 @@ pub struct Netlist {
     pub(crate) initial: Option<InitialState>,
     /// Joint knowledge of the parameters.
     pub(crate) uncertainty: UncertaintyPlan,
+    /// The load case that was taken.
+    pub(crate) case: Option<String>,
     /// The result of a fit.
     pub(crate) believed: Option<Believed>,
     /// Everything that was set so far.
@@ -328,6 +331,9 @@ fn finish(
         problems.extend(more);
         None
     });
+    if problems.is_empty() {
+        problems.extend(plan.iter().flat_map(|plan| case::runs(&studies.cases, (&network, plan))));
+    }
     if !problems.is_empty() {
         diagnostics.extend(problems);
         diagnostics.retain(|d| d.severity == Severity::Error);
@@ -346,6 +352,7 @@ fn finish(
         plan,
         initial,
         uncertainty,
+        case: None,
         believed,
         assigned,
         inputs,

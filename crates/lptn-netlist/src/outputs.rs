@@ -1,13 +1,15 @@
 //! Reports of a run in addition to its columns: expressions of results, and windows of time.
 
 use lptn_data::{Diagnostic, Span};
-use lptn_network::{Field, Item, WindowSettings};
+use lptn_network::{Field, Input, Item, WindowSettings};
 
 use crate::fields::{Fields, Owner};
 use crate::format::{SectionDeclaration, key};
-use crate::place::{Place, Wanted};
-use crate::raw::{RawEntry, RawKind};
+use crate::functional::Taken;
+use crate::place::{Place, Text, Wanted};
+use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::setting::{Setting, TIME};
+use crate::value::whole;
 use crate::work::Elaboration;
 
 /// `climb = { from = .., to = .. }` in `window` of `[run]`.
@@ -30,7 +32,7 @@ pub(crate) struct WindowPlan {
 }
 
 impl<'a> Elaboration<'a> {
-    /// `report = { rise = "ring.T - air.T" }`: each becomes a column.
+    /// `report = { rise = "ring.T - air.T" }`: each becomes a column, a functional a number.
     pub(crate) fn reports(&mut self, fields: &Fields<'a>) {
         for entry in self.members(fields, "report") {
             self.report_column(entry);
@@ -50,14 +52,22 @@ impl<'a> Elaboration<'a> {
             );
             return None;
         }
-        let input = self.given(place, Wanted::of_results())?.input();
-        let text = match &entry.value.kind {
-            RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => {
-                text.trim()
-            }
-            _ => "",
+        let text = self.names.text(place, None);
+        let text = self.kept(text)?;
+        let called = match &text {
+            Text::Expression(expression) => self.called(expression).map(|c| (whole(expression), c)),
+            Text::Quantity(_) => None,
         };
-        let item = Item::Report(self.builder.report(&entry.key, input, text));
+        let id = if let Some((written, called)) = called {
+            let Taken { of: (of, _), ty, over_time } = self.over_time(place, called)?;
+            let id = self.builder.report(&entry.key, Input::of_type(of, ty), &written);
+            self.builder.report_over_time(id, over_time);
+            id
+        } else {
+            let input = self.resolve(place, text, Wanted::of_results())?.input();
+            self.builder.report(&entry.key, input, as_written(&entry.value))
+        };
+        let item = Item::Report(id);
         self.map.insert(item, Field::Name, entry.key_span.clone());
         self.map.value(item, Field::Value, &entry.value);
         Some(())
@@ -96,6 +106,14 @@ impl<'a> Elaboration<'a> {
     /// The entries of a table in `[run]`.
     fn members(&mut self, fields: &Fields<'a>, key: &str) -> &'a [RawEntry] {
         self.table_of(fields, (key, "a table")).map_or(&[], |table| &table.entries)
+    }
+}
+
+/// The text of a report.
+fn as_written(raw: &RawValue) -> &str {
+    match &raw.kind {
+        RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => text.trim(),
+        _ => "",
     }
 }
 

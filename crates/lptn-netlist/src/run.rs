@@ -43,7 +43,7 @@ pub(crate) const RUN: SectionDeclaration = SectionDeclaration {
             "report",
             "table of expressions of results",
             Takes::Each(&Takes::Like),
-            "further columns",
+            "further columns, or numbers over time by a functional",
             "{ rise = \"steel.T - air.T\" }",
         ),
         shaped(

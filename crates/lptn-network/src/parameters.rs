@@ -46,6 +46,11 @@ impl Parameters {
         }
     }
 
+    /// The same values for other parts with the same parameters.
+    pub(crate) fn onto(&self, parts: &Arc<Parts>) -> Self {
+        Self { parts: Arc::clone(parts), ..self.clone() }
+    }
+
     pub(crate) fn belong_to(&self, parts: &Arc<Parts>) -> bool {
         Arc::ptr_eq(&self.parts, parts)
     }

@@ -154,4 +154,4 @@ pub use verification::{
 };
 
 pub use watch::{Watch, Watched, first_there, top};
-pub use window::{ColumnSeen, Window, WindowSeen};
+pub use window::{ColumnSeen, ReportSeen, Window, WindowSeen};

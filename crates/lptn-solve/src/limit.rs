@@ -27,10 +27,12 @@ pub(crate) fn of_moments(network: &Network) -> impl Iterator<Item = LimitId> + '
     network.limit_ids().filter(|id| network.limits()[id.index()].is_of_moments())
 }
 
-/// A window that follows the sides of the limits over time, if there are any.
+/// A window over the whole run that follows the sides of the limits over time and the quantities
+/// of the reports over time, if there are any.
 pub(crate) fn window(network: &Network, (from, to): (f64, f64)) -> Option<Window> {
     let over_time = |id: &LimitId| !network.limits()[id.index()].is_of_moments();
     let of = Selection::of_limits(network.limit_ids().filter(over_time));
+    let of = of.and_reports(network.reports_over_time());
     (!of.is_empty()).then(|| Window { name: String::new(), from, to, of })
 }
 
@@ -137,7 +139,7 @@ impl<'a> LimitWatch<'a> {
     /// `window` is that of [`window`].
     pub(crate) fn into_seen(
         mut self,
-        (tolerance, window): (f64, Option<WindowSeen>),
+        (tolerance, window): (f64, Option<&WindowSeen>),
     ) -> Vec<LimitSeen> {
         let (end, margins) = std::mem::take(&mut self.last);
         let mut all = std::mem::take(&mut self.look.seen);
@@ -162,7 +164,7 @@ impl<'a> LimitWatch<'a> {
     }
 
     /// The results of the limits over time; not judged if the run has no length.
-    fn over_time(&mut self, (tolerance, window): (f64, Option<WindowSeen>)) -> Vec<LimitSeen> {
+    fn over_time(&mut self, (tolerance, window): (f64, Option<&WindowSeen>)) -> Vec<LimitSeen> {
         let over_time = |id: &LimitId| !self.network.limits()[id.index()].is_of_moments();
         let ids: Vec<LimitId> = self.network.limit_ids().filter(over_time).collect();
         let sides = window.iter().flat_map(|window| {
@@ -171,7 +173,7 @@ impl<'a> LimitWatch<'a> {
             })
         });
         let mut sides = sides.collect::<Vec<_>>().into_iter();
-        let end = window.as_ref().map_or(f64::NAN, |window| window.to);
+        let end = window.map_or(f64::NAN, |window| window.to);
         let mut one = |id: LimitId| {
             let unjudged = LimitSeen { margin: f64::NAN, ..nothing(id) };
             let Some(sides) = sides.next() else { return unjudged };

@@ -27,6 +27,7 @@ impl Quantity {
     /// heat flows of paths, sources and boundaries, signals, controls, reports.
     pub(crate) fn all(network: &Network) -> impl Iterator<Item = Self> {
         let nodes = network.outer_nodes().map(Self::Node);
+        let is_column = |id: &ReportId| network.reports()[id.index()].over_time.is_none();
         let paths = network.outer_conductors().flat_map(|id| of_path(network, id));
         let joints = network.shared_face_paths().map(HeatOf::FacePath);
         nodes
@@ -38,7 +39,7 @@ impl Quantity {
             .chain(network.state_ids().map(Self::State))
             .chain(network.signal_ids().map(Self::Signal))
             .chain(network.control_ids().map(Self::Control))
-            .chain(network.report_ids().map(Self::Report))
+            .chain(network.report_ids().filter(is_column).map(Self::Report))
     }
 
     /// The inside of grids: temperatures of cells and surfaces, heat flows of their paths, free
@@ -135,7 +136,7 @@ impl Quantity {
             Self::State(id) => network.states()[id.index()].ty,
             Self::Signal(id) => network.signals()[id.index()].ty,
             Self::Control(_) => Type::SCALAR,
-            Self::Report(id) => network.reports()[id.index()].ty,
+            Self::Report(id) => network.reports()[id.index()].type_of_moments(),
             Self::Side(id, side) => network.limit_side_type((id, side)),
         }
     }
@@ -174,6 +175,10 @@ impl Shown {
             _ => None,
         };
         Self { ty: quantity.ty(network), own }
+    }
+
+    pub(crate) fn of_type(ty: Type) -> Self {
+        Self { ty, own: None }
     }
 
     /// The unit: `temperature` for points on the scale, else its own, else SI; `1` for a number.

@@ -65,7 +65,7 @@ pub(crate) struct Recorder<'a> {
     placed: u64,
     limits: LimitWatch<'a>,
     ranges: RangeWatch<'a>,
-    /// The windows of the run, then that of the limits over time if there is one.
+    /// The windows of the run, then that of the limits and reports over time if there is one.
     windows: Vec<Tracked>,
     reading: Reading<'a>,
     /// The variables of the integrator at one time.
@@ -317,11 +317,11 @@ impl<'a> Recorder<'a> {
         };
         let last = LastState::new(self.system, &self.work, (time, &self.state));
         let span = (self.rows[0], self.rows[self.rows.len() - 1]);
-        let of_limits = limit::window(network, span).and_then(|_| self.windows.pop());
-        let of_limits = of_limits.and_then(|w| w.into_seen(network, self.tolerance));
+        let whole = limit::window(network, span).and_then(|_| self.windows.pop());
+        let whole = whole.and_then(|w| w.into_seen(network, self.tolerance));
         let windows = self.windows.into_iter().filter_map(|w| w.into_seen(network, self.tolerance));
         self.rows.truncate(self.next);
-        let limits = self.limits.into_seen((self.tolerance, of_limits));
+        let limits = self.limits.into_seen((self.tolerance, whole.as_ref()));
         Solution {
             controls: Vec::new(),
             method: None,
@@ -340,6 +340,7 @@ impl<'a> Recorder<'a> {
             limits,
             out_of_range: self.ranges.into_found(),
             windows: windows.collect(),
+            reports: whole.map_or_else(Vec::new, |whole| whole.reports),
             balance,
             last,
             ledger,

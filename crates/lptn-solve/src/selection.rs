@@ -60,6 +60,13 @@ impl Selection {
         Self { quantities: sides.collect() }
     }
 
+    /// With the quantities of these reports: a window follows them for their numbers over time.
+    #[must_use]
+    pub fn and_reports(mut self, reports: impl IntoIterator<Item = ReportId>) -> Self {
+        self.quantities.extend(reports.into_iter().map(Quantity::Report));
+        self
+    }
+
     /// The columns that match any of `patterns`, in the order of the network.
     ///
     /// # Errors

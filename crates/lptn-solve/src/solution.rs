@@ -28,7 +28,7 @@ use crate::snapshot::Snapshot;
 use crate::solution_error::SolutionError;
 use crate::state::State;
 use crate::watch::Watched;
-use crate::window::WindowSeen;
+use crate::window::{ReportSeen, WindowSeen};
 
 /// End of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,6 +65,7 @@ pub struct Solution {
     pub(crate) limits: Vec<LimitSeen>,
     pub(crate) out_of_range: Vec<OutOfRange>,
     pub(crate) windows: Vec<WindowSeen>,
+    pub(crate) reports: Vec<ReportSeen>,
     pub(crate) balance: Option<Balance>,
     pub(crate) last: LastState,
     pub(crate) ledger: Ledger,
@@ -195,7 +196,8 @@ impl Solution {
         self.values(Quantity::Signal(id))
     }
 
-    /// A report over the rows in SI units; NaN unless every node was recorded.
+    /// A report over the rows in SI units; NaN unless every node was recorded. Of a number over
+    /// time it is the quantity; [`Solution::reports_over_time`] has the number.
     pub fn report(&self, id: ReportId) -> Vec<f64> {
         self.values(Quantity::Report(id))
     }
@@ -307,6 +309,11 @@ impl Solution {
     /// Means and extremes over the requested windows, as far as the run came.
     pub fn windows(&self) -> &[WindowSeen] {
         &self.windows
+    }
+
+    /// The reports that are numbers over time, over the run as far as it came.
+    pub fn reports_over_time(&self) -> &[ReportSeen] {
+        &self.reports
     }
 
     /// The requested heat balance of a node or boundary.

@@ -7,7 +7,7 @@
 
 use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
 use lptn_integrate::{FactorError, Pattern};
-use lptn_network::{InputError, Network, NodeId, Positions};
+use lptn_network::{History, InputError, Network, NodeId, Positions, ReportId};
 
 use crate::adiabatic::{self, Island};
 use crate::conductances::Conductances;
@@ -23,6 +23,7 @@ use crate::standing;
 use crate::times::just_after;
 use crate::transient::{FINE, MOVED, ROUGH, Way, rest};
 use crate::unsolved::Unsolved;
+use crate::window::ReportSeen;
 
 /// The temperatures at which no node stores heat any more.
 #[derive(Clone, Debug)]
@@ -85,6 +86,26 @@ impl SteadyState {
         let mut scope = self.evaluation(network);
         scope.set_time(time, time);
         limit::margins(network, &mut scope)
+    }
+
+    /// The reports that are numbers over time, while everything stays as it is here; NaN for those
+    /// that then grow without end, and for those whose inputs change with time.
+    ///
+    /// # Errors
+    /// [`InputError`] if a report cannot be evaluated.
+    pub fn reports_over_time(&self, network: &Network) -> Result<Vec<ReportSeen>, InputError> {
+        let mut scope = self.evaluation(network);
+        let mut value = |id: ReportId| {
+            let report = &network.reports()[id.index()];
+            let moment = History::constant(network.report_value(id, &mut scope)?);
+            let lasts = report.over_time.as_ref().is_some_and(|o| o.functional.is_lasting());
+            match lasts && network.changing_inputs_of(&[&report.value]).is_empty() {
+                true => network.report_over_time(id, &moment, &mut scope),
+                false => Ok(f64::NAN),
+            }
+        };
+        let one = |report| Ok(ReportSeen { report, value: value(report)?, open: 0.0 });
+        network.reports_over_time().map(one).collect()
     }
 
     /// Solves `G T = q` with the inputs as they are at `time` in s. If something switches, it finds

@@ -140,7 +140,8 @@ impl Table {
         self
     }
 
-    /// The selected columns of a steady state as a table of one row, temperatures in `unit`.
+    /// The selected columns of a steady state and its reports over time as a table of one row,
+    /// temperatures in `unit`.
     ///
     /// # Errors
     /// [`InputError`] if a report cannot be evaluated.
@@ -159,7 +160,15 @@ impl Table {
         };
         let columns: Result<Vec<Column>, InputError> =
             selection.quantities().iter().map(column).collect();
-        Ok(Self { labels: Vec::new(), columns: columns? })
+        let numbers = steady.reports_over_time(network)?;
+        let numbers = numbers.iter().map(|seen| {
+            let report = &network.reports()[seen.report.index()];
+            let shown = Shown::of_type(report.ty);
+            let (name, unit, value) =
+                (report.name.clone(), shown.unit(unit), shown.value(seen.value, unit));
+            Column { name, unit, values: vec![value] }
+        });
+        Ok(Self { labels: Vec::new(), columns: columns?.into_iter().chain(numbers).collect() })
     }
 }
 

@@ -1,6 +1,6 @@
 //! Means and extremes over windows of time, from the integrator's own curve and not from rows.
 
-use lptn_network::{Bends, Evaluation, Item, Network};
+use lptn_network::{Bends, Evaluation, Item, Network, ReportId};
 use lptn_units::Type;
 
 use crate::interval::{Interval, POINTS};
@@ -9,7 +9,7 @@ use crate::quantity::{Quantity, Shown};
 use crate::selection::Selection;
 use crate::stop_reason::StopReason;
 use crate::watch::{LASTS, REFINEMENTS, first_there, is_same, put_in, top};
-use crate::window::{ColumnSeen, Window, WindowSeen};
+use crate::window::{ColumnSeen, ReportSeen, Window, WindowSeen};
 use crate::zeros::share_above;
 
 /// An extreme that differs from the value at an end of the window by less than this share of it is
@@ -118,13 +118,26 @@ impl Tracked {
             let open = self.sums.open(i);
             ColumnSeen { name, ty, mean, min, max, last, positive, open, shown }
         };
-        (length > 0.0).then(|| WindowSeen {
-            name: self.window.name.clone(),
-            from,
-            to,
-            columns: self.window.of.quantities().iter().enumerate().map(column).collect(),
-        })
+        if length.is_nan() || length <= 0.0 {
+            return None;
+        }
+        let name = self.window.name.clone();
+        let mut seen = WindowSeen { name, from, to, columns: Vec::new(), reports: Vec::new() };
+        for (i, quantity) in self.window.of.quantities().iter().enumerate() {
+            let column = column((i, quantity));
+            match report_over_time(*quantity, network) {
+                Some(id) => seen.reports.push(ReportSeen::of((id, &column), &seen, network)),
+                None => seen.columns.push(column),
+            }
+        }
+        Some(seen)
     }
+}
+
+/// The report that a quantity is, if that is a number over time and not a column.
+fn report_over_time(quantity: Quantity, network: &Network) -> Option<ReportId> {
+    let Quantity::Report(id) = quantity else { return None };
+    network.reports()[id.index()].over_time.is_some().then_some(id)
 }
 
 /// For each column a number that those of the same dimension share.

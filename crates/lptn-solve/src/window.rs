@@ -1,6 +1,6 @@
 //! Windows of time, and their results.
 
-use lptn_network::History;
+use lptn_network::{History, Network, ReportId};
 use lptn_units::{Type, Unit};
 
 use crate::quantity::Shown;
@@ -83,4 +83,36 @@ pub struct WindowSeen {
     pub to: f64,
     /// Each of its columns.
     pub columns: Vec<ColumnSeen>,
+    /// The numbers over the window of its reports that are functionals.
+    pub reports: Vec<ReportSeen>,
+}
+
+/// The number of a report over a run, a cycle or a window.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReportSeen {
+    /// The report.
+    pub report: ReportId,
+    /// Its value in SI units; NaN if it has none.
+    pub value: f64,
+    /// Possible error of the value in SI units, of a life as a share of it, in addition to the
+    /// error of temperatures, because its quantity changes faster than steps resolve; 0 if it does
+    /// not.
+    pub open: f64,
+}
+
+impl ReportSeen {
+    /// From the statistics of the quantity of a report over `window`.
+    pub(crate) fn of(
+        (report, column): (ReportId, &ColumnSeen),
+        window: &WindowSeen,
+        network: &Network,
+    ) -> Self {
+        let history = window.history(column);
+        let mut scope = network.evaluation();
+        let value = network.report_over_time(report, &history, &mut scope).unwrap_or(f64::NAN);
+        let over_time = network.reports()[report.index()].over_time.as_ref();
+        let open = over_time.filter(|_| column.is_open());
+        let open = open.map_or(0.0, |over_time| over_time.functional.error(&history, column.open));
+        Self { report, value, open }
+    }
 }

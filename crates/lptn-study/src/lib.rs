@@ -20,12 +20,13 @@ mod moment;
 mod rank;
 mod record;
 mod size;
+pub mod standing;
 pub mod sweep;
 pub mod uncertainty;
 
 pub use compare::{
-    Above, Candidate, CandidateLimit, CompareError, CompareRow, HeatOut, HeatOver, PathShare, Peak,
-    Scatter, Settled, Share, SortKey, compare_table, order,
+    Above, Candidate, CandidateLimit, CandidateReport, CompareError, CompareRow, HeatOut, HeatOver,
+    PathShare, Peak, Scatter, Settled, Share, SortKey, compare_table, order,
 };
 pub use digest::{Hashing, sha256};
 pub use gears::{GearError, GearPoint, GearState, GearTask, MemberState, MeshTeeth, PartLoss};

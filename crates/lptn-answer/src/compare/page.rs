@@ -9,16 +9,18 @@ use lptn_report::{
     Align, Column, Json, Page, Report, Rows, Standing, Text, TextTable, WIDTH, decimals, duration,
     fixed, plain, prefix, significant, stacked,
 };
-use lptn_study::{Candidate, CandidateLimit, CompareRow, HeatOut, HeatOver, compare_table};
+use lptn_study::{
+    Candidate, CandidateLimit, CandidateReport, CompareRow, HeatOut, HeatOver, compare_table,
+};
+use lptn_units::Unit;
 use serde_json::Value;
 
 use super::{CompareAnswer, doubts};
 use crate::about;
 use crate::answer::Answer as _;
 use crate::exit::Exit;
-use crate::messages;
-use crate::scale;
 use crate::words::{count, spaced};
+use crate::{messages, over_time, scale};
 
 /// Cell of a value that is not known or does not exist.
 const NOTHING: &str = "-";
@@ -39,6 +41,7 @@ impl Page for CompareAnswer {
         let sections = [
             ("margin to", margins(rows, &CompareRow::limit)),
             ("settled margin to", settled_margins(rows)),
+            ("report", numbers(rows, &self.unit)),
             ("standard deviation", doubts::columns(rows, &names(rows))),
             (heat_over(rows), heat(rows)),
             ("heat by path", shares(rows, &CompareRow::path_names(rows))),
@@ -196,6 +199,16 @@ fn settled_margins(rows: &[CompareRow]) -> Vec<Column> {
         true => margins(rows, &CompareRow::settled_limit),
         false => Vec::new(),
     }
+}
+
+/// A column for each report that is a number over time.
+fn numbers(rows: &[CompareRow], unit: &Unit) -> Vec<Column> {
+    let column = |name: &&str| {
+        let number = |report: &CandidateReport| over_time::number((report.value, report.ty), unit);
+        let cell = |row: &CompareRow| row.report(name).map_or_else(|| NOTHING.to_owned(), number);
+        Column::new(*name, Align::Right, rows.iter().map(cell).collect())
+    };
+    CompareRow::report_names(rows).iter().map(column).collect()
 }
 
 fn margin(limit: &CandidateLimit) -> String {

@@ -14,7 +14,7 @@ use super::CycleAnswer;
 use crate::balance;
 use crate::run::page::heat_over;
 use crate::words::{count, difference, largest, some_of, symbol};
-use crate::{families, limits};
+use crate::{families, limits, over_time};
 
 /// A column with its first value, in SI.
 type Row<'a> = (&'a ColumnSeen, f64);
@@ -34,6 +34,7 @@ impl Page for CycleAnswer {
         temperature_section(&mut text, self, temperatures);
         flow_section(&mut text, flows, self.run.folds());
         other_section(&mut text, self, &others);
+        self.run.over_time(&mut text, "over the cycle");
         let fold = self.run.folds();
         let limits = self.run.limits();
         limits::section(&mut text, &self.run.judgement(&limits), fold);
@@ -83,6 +84,8 @@ impl Page for CycleAnswer {
         json.member("ledger", &self.run.ledger())?;
         let (network, unit) = (solution.network(), &self.run.task.unit);
         json.optional("limits", limits::members(network, &self.run.limits(), unit))?;
+        let reports = over_time::members(network, solution.reports_over_time(), unit);
+        json.optional("reports", reports)?;
         json.optional("out_of_range", self.run.out_of_range())?;
         json.optional("balance", solution.balance().map(|of| balance::json(network, of)))?;
         json.member("statistics", &StatisticsRecord::new(solution))

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use lptn_analysis::{LimitResult, Trusted};
 use lptn_netlist::{Diagnostic, Files, SavedState};
 use lptn_network::Parameter;
-use lptn_report::duration;
+use lptn_report::{Text, duration};
 use lptn_solve::{Lumping, Method, RunStatus, Solution, SteadyState, Table};
 use lptn_study::{
     Environment, FileHash, LedgerRecord, Manifest, ParameterRecord, RunEnd, SiValue,
@@ -22,7 +22,7 @@ use crate::failure::{Failure, told};
 use crate::limits::{self, Verdict};
 use crate::lumping::Detail;
 use crate::words::unverified_names;
-use crate::{about, bound, gaps, lumping, ranges, scale, trust};
+use crate::{about, bound, gaps, lumping, over_time, ranges, scale, trust};
 
 /// A run, as far as it came.
 #[derive(Debug)]
@@ -110,6 +110,23 @@ impl RunAnswer {
     pub fn windows(&self) -> Option<Vec<Vec<String>>> {
         let seen = self.solution.windows();
         (!seen.is_empty()).then(|| windows::rows(seen, &self.task.unit))
+    }
+
+    /// The rows of `reports.csv`, the heading first; `None` without numbers over time.
+    pub fn reports_over_time(&self) -> Option<Vec<Vec<String>>> {
+        let (solution, start) = (&self.solution, self.task.settings.start);
+        let stop = match solution.end() {
+            RunStatus::Reached => self.task.settings.stop,
+            RunStatus::Interrupted(time) | RunStatus::Failed(time) => time,
+        };
+        let of = (solution.network(), solution.reports_over_time());
+        over_time::rows(of, ((start, stop), solution.windows()), &self.task.unit)
+    }
+
+    /// A section with the numbers over time.
+    pub(crate) fn over_time(&self, text: &mut Text, heading: &str) {
+        let of = (self.solution.network(), self.solution.reports_over_time());
+        over_time::section(text, of, (heading, &self.task.unit));
     }
 
     /// The rows of `uncertainty.csv` and of `ranking.csv`, if an uncertainty is known.

@@ -19,7 +19,7 @@ use crate::lumping::Detail;
 use crate::messages;
 use crate::steady::others;
 use crate::words::MOST_NODES;
-use crate::{families, limits, lumping, scale};
+use crate::{families, limits, lumping, over_time, scale};
 
 /// Characters of a curve.
 const CURVE: usize = 16;
@@ -45,7 +45,9 @@ impl Page for RunAnswer {
         }
         events::section(&mut text, &self.solution, span, self.task.clock);
         columns(self, &mut text);
-        windows::sections(&mut text, self.solution.windows(), (&self.task.unit, self.task.clock));
+        let length = self.task.clock.text(span.1 - span.0, 4);
+        self.over_time(&mut text, &format!("over {length}"));
+        windows::sections(&mut text, &self.solution, (&self.task.unit, self.task.clock));
         let uncertain = |study| uncertainty::text::notes(network, study, &self.task.unit);
         text.section().notes(self.uncertainty().into_iter().flat_map(uncertain));
         text.notes(notes(self, &nodes)).section();
@@ -89,7 +91,9 @@ impl Page for RunAnswer {
         json.optional("limits", limits::members(network, &self.limits(), unit))?;
         json.optional("out_of_range", self.out_of_range())?;
         json.optional("uncertainty", self.uncertainty().map(uncertain))?;
-        let windows = || windows::members(self.solution.windows(), unit);
+        let reports = over_time::members(network, self.solution.reports_over_time(), unit);
+        json.optional("reports", reports)?;
+        let windows = || windows::members(&self.solution, unit);
         json.optional("windows", windowed.then(windows))?;
         json.optional("balance", self.solution.balance().map(|of| balance::json(network, of)))?;
         json.member("lumping", &lumping::json(network, &self.lumping))?;

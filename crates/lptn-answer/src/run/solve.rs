@@ -102,8 +102,8 @@ impl RunTask {
             record = record.and(shown);
         }
         let window = |window: &lptn_netlist::WindowSettings| {
-            let (name, of) = (window.name.clone(), self.selection.clone());
-            Window { name, from: window.from, to: window.to, of }
+            let of = self.selection.clone().and_reports(system.network().reports_over_time());
+            Window { name: window.name.clone(), from: window.from, to: window.to, of }
         };
         let windows = self.settings.windows.iter().map(window).collect();
         Ok(run.keeping(record).over(windows).balancing(self.balance))

@@ -1,17 +1,21 @@
 //! Means and extremes over windows of a run: table, CSV and JSON.
 
 use lptn_report::{Clock, Shortest, Text, TextTable, decimals, fixed};
-use lptn_solve::{ColumnSeen, WindowSeen};
+use lptn_solve::{ColumnSeen, Solution, WindowSeen};
 use lptn_study::SiValue;
 use lptn_units::Unit;
 use serde_json::{Map, Value, json};
 
-use crate::scale;
 use crate::words::{MOST_NODES, symbol};
+use crate::{over_time, scale};
 
 /// A section for each window.
-pub(super) fn sections(text: &mut Text, windows: &[WindowSeen], units: (&Unit, Clock)) {
-    windows.iter().for_each(|window| section(text, window, units));
+pub(super) fn sections(text: &mut Text, solution: &Solution, units: (&Unit, Clock)) {
+    for window in solution.windows() {
+        section(text, window, units);
+        let numbers = (solution.network(), window.reports.as_slice());
+        over_time::section(text, numbers, (&format!("over {}", window.name), units.0));
+    }
 }
 
 fn section(text: &mut Text, window: &WindowSeen, (unit, clock): (&Unit, Clock)) {
@@ -69,9 +73,9 @@ pub(super) fn rows(windows: &[WindowSeen], unit: &Unit) -> Vec<Vec<String>> {
 }
 
 /// Members by the window's name:
-/// `{ from, to, columns: { NAME: { mean, min, min_at, max, max_at } } }`, in SI but for
-/// temperatures, which are in `unit`.
-pub(super) fn members(windows: &[WindowSeen], unit: &Unit) -> Map<String, Value> {
+/// `{ from, to, columns: { NAME: { mean, min, min_at, max, max_at } } }`, with `reports` if there
+/// are numbers over time; in SI but for temperatures, which are in `unit`.
+pub(super) fn members(solution: &Solution, unit: &Unit) -> Map<String, Value> {
     let time = |time: f64| SiValue::new(time, "s");
     let column = |c: &ColumnSeen| {
         let scalar = |value: f64| scale::scalar(value, c.ty, unit);
@@ -86,9 +90,12 @@ pub(super) fn members(windows: &[WindowSeen], unit: &Unit) -> Map<String, Value>
     };
     let one = |window: &WindowSeen| {
         let columns: Map<String, Value> = window.columns.iter().map(column).collect();
-        let member =
+        let mut member =
             json!({ "from": time(window.from), "to": time(window.to), "columns": columns });
+        if let Some(reports) = over_time::members(solution.network(), &window.reports, unit) {
+            member["reports"] = reports;
+        }
         (window.name.clone(), member)
     };
-    windows.iter().map(one).collect()
+    solution.windows().iter().map(one).collect()
 }

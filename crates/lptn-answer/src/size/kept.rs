@@ -132,7 +132,8 @@ pub(super) fn cases(netlist: &Netlist, study: &SizeStudy) -> Vec<LoadCase> {
     let all = netlist.studies.cases.iter().filter(|case| counts(&case.name));
     all.filter_map(|case| {
         let set = case.values(&netlist.network).ok()?;
-        Some(LoadCase { name: case.name.clone(), set })
+        let signals = case.courses(&netlist.network);
+        Some(LoadCase { name: case.name.clone(), set, signals })
     })
     .collect()
 }

@@ -205,7 +205,11 @@ impl SteadyAnswer {
         let shown: Vec<_> = self.table.columns().iter().filter(|c| !of_item(&c.name)).collect();
         if !shown.is_empty() {
             let table = TextTable::of(&shown);
-            let value = |c: &&lptn_solve::Column| significant(c.values[0], 5);
+            let value = |c: &&lptn_solve::Column| match c.values[0] {
+                value if value.is_finite() => significant(value, 5),
+                // a number over time that grows without end
+                _ => "-".into(),
+            };
             text.section().table(table.left("column", |c| c.header()).right("", value));
         }
     }

@@ -14,6 +14,7 @@ use lptn_units::{Problem as _, Type, Unit};
 use serde_json::{Value, json};
 
 use super::lines::{Lines, read_row};
+use super::row::RowShape;
 use super::shard::Shard;
 use super::tally::Tally;
 use crate::about;
@@ -28,6 +29,12 @@ const STUDIES: Studies = Studies {
     example: "[sweep.fans]\nmethod = \"grid\"\naxes = { G = { from = \"1 W/K\", to = \"10 W/K\", \
               points = 10 } }\nreport = { T = \"steel.T\" }",
 };
+
+/// The name of a column with a least margin.
+const MARGIN: &str = "limit_margin";
+
+/// The columns of words about limits.
+pub(super) const JUDGED: [&str; 2] = ["limits", "worst_limit"];
 
 /// A column of numbers: its name and the unit of its cells.
 #[derive(Clone, Debug)]
@@ -63,7 +70,7 @@ pub struct SweepAsked {
     /// The netlist.
     pub input: Arc<Input>,
     pub(super) task: SweepTask,
-    /// The axes, then the reports.
+    /// The axes, then the reports, then the least margin of the limits of each unit.
     pub columns: Vec<Column>,
     /// The part that is solved.
     pub shard: Option<Shard>,
@@ -111,9 +118,13 @@ impl SweepQuestion {
             .reports
             .iter()
             .map(|report| Column { name: report.name.clone(), unit: unit_of(report.ty, &unit) });
-        let columns = axes.chain(reports).collect();
+        let mut columns: Vec<Column> = axes.chain(reports).collect();
         let task = SweepTask::new(netlist.clone(), study.clone(), cases);
         let task = task.map_err(|error| refused(&input, study, &error))?;
+        let margins = task.limits().types().iter();
+        columns.extend(
+            margins.map(|ty| Column { name: MARGIN.to_owned(), unit: unit_of(*ty, &unit) }),
+        );
         let ranged = !netlist.network.ranged().is_empty();
         Ok(SweepAsked { task, columns, shard: self.shard, range, ranged, input })
     }
@@ -130,6 +141,22 @@ impl SweepAsked {
         self.task.cases().parameters().len()
     }
 
+    /// The shape of its rows.
+    pub fn shape(&self) -> RowShape {
+        let (judged, ranged) = (self.is_judged(), self.ranged);
+        RowShape { columns: self.header().len(), judged, ranged }
+    }
+
+    /// True if candidates are judged by limits.
+    pub(super) fn is_judged(&self) -> bool {
+        !self.task.limits().is_empty()
+    }
+
+    /// The number of reports.
+    pub(super) fn reports(&self) -> usize {
+        self.study().reports.len()
+    }
+
     /// The folder of the files: that of the part, if it is one.
     pub fn folder(&self, output: Option<PathBuf>) -> PathBuf {
         let whole = output.unwrap_or_else(|| folder(&self.input, self.study()));
@@ -140,6 +167,9 @@ impl SweepAsked {
     pub fn header(&self) -> Vec<String> {
         let mut header = vec!["case [-]".to_owned()];
         header.extend(self.columns.iter().map(Column::header));
+        if self.is_judged() {
+            header.extend(JUDGED.map(str::to_owned));
+        }
         header.extend(self.ranged.then(|| "outside [-]".to_owned()));
         header.push("failed".into());
         header
@@ -156,7 +186,7 @@ impl SweepAsked {
     /// An empty tally of its rows.
     pub fn tally(&self) -> Tally {
         let axes = self.axes();
-        let (reports, front) = (self.columns.len() - axes, self.study().front);
+        let (reports, front) = (self.reports(), self.study().front);
         Tally::new((axes, reports), front, self.range.end - self.range.start)
     }
 
@@ -166,10 +196,10 @@ impl SweepAsked {
     /// A file that cannot be read.
     pub fn read(&self, path: &Path, tally: &mut Tally) -> Result<(), Failure> {
         let mut lines = Lines::open(path)?;
-        let columns = self.header().len();
+        let shape = self.shape();
         lines.next_line()?;
         while let Some(line) = lines.next_line()? {
-            read_row(&line, columns, self.ranged).iter().for_each(|row| tally.row(row));
+            read_row(&line, shape).iter().for_each(|row| tally.row(row));
         }
         Ok(())
     }
@@ -187,6 +217,7 @@ impl SweepAsked {
             "lptn": env!("CARGO_PKG_VERSION"),
             "inputs": hashes,
             "parameters": values,
+            "case": self.input.netlist.case(),
             "sweep": self.study().name,
             "header": self.header(),
         });

@@ -1,4 +1,4 @@
-//! The candidates that no other betters in two reports.
+//! The candidates that no other betters in two reports. Those that break limits do not count.
 
 use super::row::Row;
 

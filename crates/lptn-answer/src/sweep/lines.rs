@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::row::Row;
+use super::row::{Row, RowShape};
 use crate::failure::Failure;
 
 /// No row is longer, in bytes.
@@ -48,14 +48,18 @@ pub fn damaged(path: &Path, line: u64) -> Failure {
     Failure::refused("sweep::damaged", message, "remove the file and start again")
 }
 
-/// The row in a line of this many columns; `ranged` if one counts laws outside their ranges.
-pub fn read_row(line: &[u8], columns: usize, ranged: bool) -> Option<Row> {
+/// The row in a line of this shape.
+pub fn read_row(line: &[u8], shape: RowShape) -> Option<Row> {
     let text = std::str::from_utf8(line).ok()?.strip_suffix('\n')?;
     let cells: Vec<&str> = text.split(',').collect();
     let [case, numbers @ .., failed] = cells.as_slice() else { return None };
-    let (numbers, outside) = match (ranged, numbers) {
+    let (numbers, outside) = match (shape.ranged, numbers) {
         (true, [numbers @ .., outside]) => (numbers, *outside),
         _ => (numbers, ""),
+    };
+    let (numbers, limits, worst) = match (shape.judged, numbers) {
+        (true, [numbers @ .., limits, worst]) => (numbers, *limits, *worst),
+        _ => (numbers, "", ""),
     };
     let number = |cell: &&str| match *cell {
         "" => Some(f64::NAN),
@@ -64,19 +68,23 @@ pub fn read_row(line: &[u8], columns: usize, ranged: bool) -> Option<Row> {
     let numbers: Option<Vec<f64>> = numbers.iter().map(number).collect();
     let outside = if outside.is_empty() { Some(0) } else { outside.parse().ok() };
     let case = case.parse::<u64>().ok()?.checked_sub(1)?;
-    let whole = cells.len() == columns;
-    Some(Row { case, numbers: numbers?, outside: outside?, failed: (*failed).to_owned() })
-        .filter(|_| whole)
+    let [limits, worst, failed] = [limits, worst, failed].map(str::to_owned);
+    let row = Row { case, numbers: numbers?, limits, worst, outside: outside?, failed };
+    (cells.len() == shape.columns).then_some(row)
 }
 
 /// The row of a line as JSON: numbers, `null` for none, the code last.
-pub(super) fn json_row(line: &[u8], columns: usize, ranged: bool) -> Option<String> {
-    let row = read_row(line, columns, ranged)?;
+pub(super) fn json_row(line: &[u8], shape: RowShape) -> Option<String> {
+    let row = read_row(line, shape)?;
+    let word = |word: &str| if word.is_empty() { Value::Null } else { json!(word) };
     let mut cells = vec![json!(row.case + 1)];
     cells.extend(row.numbers.iter().map(|number| json!(number)));
+    if shape.judged {
+        cells.extend([word(&row.limits), word(&row.worst)]);
+    }
     cells.extend(
-        ranged.then(|| if row.failed.is_empty() { json!(row.outside) } else { Value::Null }),
+        shape.ranged.then(|| if row.failed.is_empty() { json!(row.outside) } else { Value::Null }),
     );
-    cells.push(if row.failed.is_empty() { Value::Null } else { json!(row.failed) });
+    cells.push(word(&row.failed));
     Some(Value::Array(cells).to_string())
 }

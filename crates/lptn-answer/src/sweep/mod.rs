@@ -13,7 +13,7 @@ mod tally;
 pub use asked::{Column, SweepAsked, SweepQuestion, folder, study};
 pub use lines::{Lines, damaged, read_row};
 pub use page::{Rows, SweepAnswer};
-pub use row::Row;
+pub use row::{Row, RowShape};
 pub use shard::Shard;
 pub use solve::Sink;
 pub use tally::Tally;

@@ -6,9 +6,10 @@ use std::path::PathBuf;
 use lptn_netlist::{Diagnostic, Files, Functional, SweepMethod, SweepOver};
 use lptn_plot::Figure;
 use lptn_report::{Json, Page, Report, Standing, Text, TextTable, plain, significant};
+use lptn_study::standing::{BROKEN, KEPT, NOT_JUDGED, WARNING};
 use serde_json::{Map, Value, json};
 
-use super::asked::{Column, SweepAsked};
+use super::asked::{Column, JUDGED, SweepAsked};
 use super::lines::{Lines, json_row};
 use super::row::Row;
 use super::tally::{Count, Tally};
@@ -67,7 +68,7 @@ impl SweepAnswer {
     }
 
     pub(super) fn reports(&self) -> &[Column] {
-        &self.asked.columns[self.asked.axes()..]
+        &self.asked.columns[self.asked.axes()..][..self.asked.reports()]
     }
 
     /// The sweep in one sentence.
@@ -160,6 +161,19 @@ impl SweepAnswer {
             }
             table = table.right(plain(&column.header()), move |row| number(row, place));
         }
+        if self.asked.is_judged() {
+            let [limits, worst] = JUDGED;
+            let failed = |row: &Row| !row.failed.is_empty();
+            let word = move |row: &Row, word: &str| if failed(row) { "-" } else { word }.to_owned();
+            table = table
+                .left(worst, move |row| word(row, &plain(&row.worst)))
+                .left(limits, move |row| word(row, &row.limits))
+                .judged(|row| match row.limits.as_str() {
+                    BROKEN => Standing::Fails,
+                    WARNING | NOT_JUDGED => Standing::Open,
+                    _ => Standing::Holds,
+                });
+        }
         table = match self.tally.failed.is_empty() {
             true => table,
             false => table.left("", |row| row.failed.clone()).judged(|row| {
@@ -178,6 +192,7 @@ impl SweepAnswer {
                 first + 1
             ));
         }
+        notes.extend(self.on_limits());
         let Count { count: n, first } = self.tally.outside;
         if n > 0 {
             notes.push(format!(
@@ -197,6 +212,29 @@ impl SweepAnswer {
         notes
     }
 
+    /// The number of candidates that keep their limits, and those that are not on the front.
+    fn on_limits(&self) -> Option<String> {
+        let of = |word| self.tally.of_limits(word);
+        let (kept, broken, open) = (of(KEPT) + of(WARNING), of(BROKEN), of(NOT_JUDGED));
+        let all = kept + broken + open;
+        let front = match self.tally.front.places() {
+            Some(_) => ": the front is of those",
+            None => "",
+        };
+        let open = match open {
+            0 => String::new(),
+            open => format!(", {open} could not be judged"),
+        };
+        let keep = if kept == 1 { "keeps" } else { "keep" };
+        let breaks = if broken == 1 { "breaks" } else { "break" };
+        let note = format!(
+            "{kept} of {} {keep} all limits of severity \"error\", {broken} {breaks} \
+             one{open}{front}",
+            candidates(all)
+        );
+        (all > 0).then_some(note)
+    }
+
     fn span(&self, row: Option<&Row>, place: usize) -> Value {
         let axes = self.axes();
         row.map_or(Value::Null, |row| {
@@ -211,9 +249,9 @@ impl SweepAnswer {
     }
 
     fn write_rows(&self, json: &mut Json<'_>) -> io::Result<()> {
-        let (columns, ranged) = (self.asked.header().len(), self.asked.ranged);
+        let shape = self.asked.shape();
         let damaged = || io::Error::new(io::ErrorKind::InvalidData, "a row is damaged");
-        let row = |line: &[u8]| json_row(line, columns, ranged).ok_or_else(damaged);
+        let row = |line: &[u8]| json_row(line, shape).ok_or_else(damaged);
         match &self.rows {
             Rows::Kept(bytes) => {
                 json.texts("rows", bytes.split_inclusive(|byte| *byte == b'\n').map(row))
@@ -261,6 +299,7 @@ impl Page for SweepAnswer {
         let failed: Map<String, Value> =
             self.tally.failed.iter().map(|(code, of)| (code.clone(), json!(of.count))).collect();
         json.member("failed", &failed)?;
+        json.optional("limits", self.asked.is_judged().then_some(&self.tally.limits))?;
         let spans = study.reports.iter().zip(&self.tally.spans).enumerate();
         let spans: Map<String, Value> = spans
             .map(|(place, (report, span))| {
@@ -295,6 +334,9 @@ impl SweepAnswer {
             let unit = if column.unit.text.is_empty() { "1" } else { &column.unit.text };
             one(&column.name, Some(unit))
         }));
+        if self.asked.is_judged() {
+            columns.extend(JUDGED.map(|name| one(name, None)));
+        }
         columns.extend(self.asked.ranged.then(|| one("outside", Some("1"))));
         columns.push(one("failed", None));
         columns

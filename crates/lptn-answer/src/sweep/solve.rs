@@ -99,8 +99,18 @@ impl SweepAsked {
 
     /// A candidate in the units that are shown.
     fn row(&self, case: u64, candidate: &Candidate, row: &mut Row) {
-        let si = candidate.values.iter().chain(&candidate.reports);
         row.case = case;
+        row.limits.clear();
+        row.worst.clear();
+        let mut margins = Vec::new();
+        if self.is_judged() && candidate.failed.is_none() {
+            let judged = self.task.limits().judge(&candidate.limits);
+            row.limits.push_str(judged.standing);
+            row.worst.push_str(judged.worst);
+            margins = judged.margins;
+        }
+        margins.resize(self.task.limits().types().len(), f64::NAN);
+        let si = candidate.values.iter().chain(&candidate.reports).chain(&margins);
         row.numbers.clear();
         row.numbers.extend(self.columns.iter().zip(si).map(|(c, si)| c.unit.from_si(*si)));
         row.outside = candidate.outside as u64;
@@ -115,6 +125,10 @@ impl SweepAsked {
                 true => lines.number(*number),
                 false => lines.word(""),
             }
+        }
+        if self.is_judged() {
+            lines.word(&row.limits);
+            lines.word(&row.worst);
         }
         match (self.ranged, row.failed.is_empty()) {
             (true, true) => lines.whole(row.outside),

@@ -41,6 +41,8 @@ pub struct Tally {
     pub rows: u64,
     pub(super) failed: BTreeMap<String, Count>,
     pub(super) outside: Count,
+    /// Number of rows by the word about their limits.
+    pub(super) limits: BTreeMap<String, u64>,
     pub(super) spans: Vec<Span>,
     pub(super) points: Vec<Row>,
     pub(super) front: Front,
@@ -59,6 +61,7 @@ impl Tally {
             rows: 0,
             failed: BTreeMap::new(),
             outside: Count::default(),
+            limits: BTreeMap::new(),
             spans: vec![Span::default(); reports],
             points: Vec::new(),
             front: Front::new(front.map(|places| places.map(|place| axes + place))),
@@ -78,7 +81,12 @@ impl Tally {
         if row.outside > 0 {
             self.outside.add(1, row.case);
         }
-        self.front.add(row);
+        if !row.limits.is_empty() {
+            *self.limits.entry(row.limits.clone()).or_default() += 1;
+        }
+        if row.keeps() {
+            self.front.add(row);
+        }
         let reports = row.numbers.get(self.axes..).unwrap_or_default();
         for (place, (span, value)) in self.spans.iter_mut().zip(reports).enumerate() {
             let at = self.axes + place;
@@ -103,6 +111,9 @@ impl Tally {
         if later.outside.count > 0 {
             self.outside.add(later.outside.count, later.outside.first);
         }
+        for (word, count) in later.limits {
+            *self.limits.entry(word).or_default() += count;
+        }
         let axes = self.axes;
         for (place, (span, new)) in self.spans.iter_mut().zip(later.spans).enumerate() {
             let value = |row: &Row| row.numbers[axes + place];
@@ -124,11 +135,17 @@ impl Tally {
             rows: 0,
             failed: BTreeMap::new(),
             outside: Count::default(),
+            limits: BTreeMap::new(),
             spans: vec![Span::default(); self.spans.len()],
             points: Vec::new(),
             front: self.front.part(),
             ..*self
         }
+    }
+
+    /// Number of rows with this word about their limits.
+    pub(super) fn of_limits(&self, word: &str) -> u64 {
+        self.limits.get(word).copied().unwrap_or(0)
     }
 
     /// Number of failed rows.

@@ -4,6 +4,7 @@ pub(crate) const RESULT: &str = "result.csv";
 pub(crate) const STATE: &str = "state.json";
 pub(crate) const EVENTS: &str = "events.csv";
 pub(crate) const WINDOWS: &str = "windows.csv";
+pub(crate) const REPORTS: &str = "reports.csv";
 pub(crate) const UNCERTAINTY: &str = "uncertainty.csv";
 pub(crate) const RANKING: &str = "ranking.csv";
 pub(crate) const RISE: &str = "figure_7_rise.csv";
@@ -32,11 +33,12 @@ pub(super) const COMMIT: &str = ".commit.json";
 /// The file whose lock shows that a process writes here.
 pub(super) const LOCK: &str = ".lptn.lock";
 
-const RESULTS: [&str; 22] = [
+const RESULTS: [&str; 23] = [
     RESULT,
     STATE,
     EVENTS,
     WINDOWS,
+    REPORTS,
     UNCERTAINTY,
     RANKING,
     RISE,

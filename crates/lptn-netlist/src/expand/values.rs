@@ -226,7 +226,7 @@ fn joined(fields: &mut TomlFields, table: &Table1) {
     }
 }
 
-fn course(signal: &Signal) -> String {
+pub(crate) fn course(signal: &Signal) -> String {
     let (times, values, interpolation) = match &signal.course {
         // alone, `K` would be a difference
         Course::Expression(expression) => return like(expression, signal.ty),

@@ -90,7 +90,7 @@ impl<'a> Elaboration<'a> {
         let entry = pending.entry;
         let id = if let RawKind::Table(_) = entry.value.kind {
             let fields = Fields::of(&SIGNAL, pending.owner, entry, &mut self.problems);
-            let course = fields.as_ref().and_then(|fields| self.course(fields));
+            let course = fields.as_ref().and_then(|fields| self.course(fields, None));
             course.map(|(ty, unit, course)| {
                 let id = self.builder.signal(&entry.key, ty, course);
                 unit.into_iter().for_each(|unit| self.builder.show_signal_in(id, unit));
@@ -117,13 +117,18 @@ impl<'a> Elaboration<'a> {
         self.map.value(item, Field::Value, &entry.value);
     }
 
-    /// The type of a signal, the unit of its values, and its time history, from points.
-    fn course(&mut self, fields: &Fields<'a>) -> Option<(Type, Option<Unit>, Course)> {
+    /// The type of a signal, the unit of its values, and its time history, from points; of a type
+    /// that may be known.
+    pub(crate) fn course(
+        &mut self,
+        fields: &Fields<'a>,
+        ty: Option<Type>,
+    ) -> Option<(Type, Option<Unit>, Course)> {
         let join = self.choice(fields, "interp", &JOINS);
         let after = self.choice(fields, "after_end", &AFTER);
         let period = self.period(fields, after);
         let time = Axis { list: "t", unit: "t_unit", column: "time", ty: Some(TIME) };
-        let value = Axis { list: "v", unit: "v_unit", column: "value", ty: None };
+        let value = Axis { list: "v", unit: "v_unit", column: "value", ty };
         let [times, values] = self.curve(fields, [time, value])?;
         let interpolation = match join? {
             Join::Pchip => Interpolation::Pchip,

@@ -34,9 +34,14 @@ impl Measure {
     pub fn functional(&self) -> Functional {
         self.over_time.functional
     }
+
+    /// True if it is a functional over time.
+    pub fn is_over_time(&self) -> bool {
+        self.functional() != Functional::Value
+    }
 }
 
-const RESERVED: [&str; 3] = ["case", "outside", "failed"];
+const RESERVED: [&str; 6] = ["case", "limits", "worst_limit", "limit_margin", "outside", "failed"];
 
 impl<'a> Elaboration<'a> {
     /// One entry of `report`.

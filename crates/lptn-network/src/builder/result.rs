@@ -6,6 +6,7 @@ use lptn_units::{Expression, Problems, Program, Type, UnitError};
 
 use crate::builder::NetworkBuilder;
 use crate::id::{Item, ReportId};
+use crate::parts::functional::OverTime;
 use crate::parts::result::Report;
 use crate::scope::Context;
 use crate::value::Input;
@@ -43,9 +44,16 @@ impl NetworkBuilder {
     pub fn report(&mut self, name: &str, value: Input, text: &str) -> ReportId {
         let id = ReportId::from_len(self.parts.reports.len());
         let Input { value, ty, .. } = value;
-        self.parts.reports.push(Report { name: name.to_owned(), value, ty, text: text.to_owned() });
+        let (text, over_time) = (text.to_owned(), None);
+        self.parts.reports.push(Report { name: name.to_owned(), value, ty, over_time, text });
         self.register_value(name, Item::Report(id));
         id
+    }
+
+    /// Makes a report that was added a functional of its quantity: a number and not a column. It
+    /// was added with the type of the number.
+    pub fn report_over_time(&mut self, id: ReportId, over_time: OverTime) {
+        self.parts.reports[id.index()].over_time = Some(over_time);
     }
 }
 

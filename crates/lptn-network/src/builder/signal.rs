@@ -26,13 +26,9 @@ impl NetworkBuilder {
         });
         if let AfterEnd::Repeat(period) = course.after() {
             let (first, last) = course.span();
-            let covers =
-                period > 0.0 && period.is_finite() && period >= (last - first) * (1.0 - 1e-12);
-            if !covers {
-                self.error(
-                    name,
-                    BuildErrorKind::PeriodTooShort { signal: id, period, span: last - first },
-                );
+            if !course.is_covered() {
+                let span = last - first;
+                self.error(name, BuildErrorKind::PeriodTooShort { signal: id, period, span });
             }
         }
         if !sound {
@@ -40,6 +36,11 @@ impl NetworkBuilder {
         }
         self.register_value(name, Item::Signal(id));
         id
+    }
+
+    /// The names and types of the signals added so far.
+    pub fn signals(&self) -> impl Iterator<Item = (&str, Type)> {
+        self.parts.layout.signals().iter().map(|signal| (signal.name.as_str(), signal.ty))
     }
 
     /// Sets the unit in which a signal is shown; a unit of another dimension is ignored.

@@ -170,7 +170,7 @@ impl NetworkBuilder {
         if shown {
             let (name, text) = (name.to_owned(), text.clone());
             let value = Value::Expression(Arc::new(program));
-            self.parts.reports.push(Report { name, value, ty, text });
+            self.parts.reports.push(Report { name, value, ty, over_time: None, text });
         }
         self.parts.named_values.push(NamedValue {
             name: name.to_owned(),

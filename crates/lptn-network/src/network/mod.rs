@@ -218,6 +218,13 @@ impl Network {
         self.of_parts(parts)
     }
 
+    /// The same values for this network: they are of one that differs by time histories of signals
+    /// or temperatures at the start, see [`Network::recorded`].
+    #[must_use]
+    pub fn adopted(&self, parameters: &Parameters) -> Parameters {
+        parameters.onto(&self.parts)
+    }
+
     /// A network of these parts with the parameters that are given here.
     fn of_parts(&self, parts: Parts) -> Result<Self, BuildErrors> {
         let given = self
@@ -226,6 +233,11 @@ impl Network {
         let given: Vec<Option<f64>> = given.collect();
         let numbers = Numbers::evaluate(&parts, &given).map_err(Problems)?;
         Ok(Self { parts: Arc::new(parts), numbers: Arc::new(numbers) })
+    }
+
+    /// The signal of this name.
+    pub fn signal(&self, name: &str) -> Option<SignalId> {
+        self.signals().iter().position(|signal| signal.name == name).map(SignalId::from_len)
     }
 
     /// An evaluation of this network's inputs at time 0.

@@ -8,7 +8,7 @@ use crate::evaluation::Evaluation;
 use crate::id::{ConductorId, End, Field, Item, LimitId, ReportId};
 use crate::input_error::{InputError, InputProblem};
 use crate::network::Network;
-use crate::parts::functional::{Functional, History};
+use crate::parts::functional::{Functional, History, OverTime};
 use crate::parts::heat::HeatOf;
 use crate::parts::layout::Holds;
 use crate::parts::result::{Bound, Report};
@@ -64,12 +64,37 @@ impl Network {
     ) -> Result<[f64; 2], InputError> {
         let mut number = |side: usize| {
             let over_time = self.limits()[id.index()].over_time[side].as_ref();
-            let life = over_time.and_then(|over_time| over_time.life.as_ref());
-            let life = life.map(|life| self.number(Item::Limit(id), Field::Of, life, scope));
-            let functional = over_time.map_or(Functional::Value, |over_time| over_time.functional);
-            Ok(functional.of(&seen[side], life.transpose()?))
+            self.over_time((Item::Limit(id), Field::Of, over_time), &seen[side], scope)
         };
         Ok(self.ordered(id, [number(0)?, number(1)?]))
+    }
+
+    /// The number over time of a report in SI units, from the time history of its quantity.
+    ///
+    /// # Errors
+    /// [`InputError`] if a value fails.
+    pub fn report_over_time(
+        &self,
+        id: ReportId,
+        seen: &History,
+        scope: &mut Evaluation,
+    ) -> Result<f64, InputError> {
+        let over_time = self.reports()[id.index()].over_time.as_ref();
+        let number = self.over_time((Item::Report(id), Field::Value, over_time), seen, scope)?;
+        Ok(number + 0.0) // no `-0` in results
+    }
+
+    /// A functional of a time history; without one its last value.
+    fn over_time(
+        &self,
+        (item, field, over_time): (Item, Field, Option<&OverTime>),
+        seen: &History,
+        scope: &mut Evaluation,
+    ) -> Result<f64, InputError> {
+        let life = over_time.and_then(|over_time| over_time.life.as_ref());
+        let life = life.map(|life| self.number(item, field, life, scope)).transpose()?;
+        let functional = over_time.map_or(Functional::Value, |over_time| over_time.functional);
+        Ok(functional.of(seen, life))
     }
 
     /// The side that has to be below, and the one that has to be above it.
@@ -122,10 +147,16 @@ impl Network {
 }
 
 impl Network {
+    /// The reports that are numbers over time and not columns.
+    pub fn reports_over_time(&self) -> impl Iterator<Item = ReportId> + '_ {
+        self.report_ids().filter(|id| self.reports()[id.index()].over_time.is_some())
+    }
+
     /// The same network with further reports, known to the caller only, and their ids. Their values
-    /// were compiled for this network.
+    /// were compiled for this network, whose own numbers over time are not followed.
     pub fn reporting(&self, further: Vec<Report>) -> (Self, Vec<ReportId>) {
         let mut parts = (*self.parts).clone();
+        parts.reports.iter_mut().for_each(|report| report.over_time = None);
         let first = parts.reports.len();
         parts.reports.extend(further);
         let ids = (first..parts.reports.len()).map(ReportId::from_len).collect();

@@ -86,7 +86,7 @@ impl Limit {
     }
 }
 
-/// A named quantity that follows from the results: a separate column.
+/// A named quantity that follows from the results: a separate column, or a number over time.
 #[derive(Clone, Debug)]
 pub struct Report {
     /// Its name, unique among parameters, signals, tables, controls and reports.
@@ -94,8 +94,18 @@ pub struct Report {
     /// An expression over parameters, `t`, signals, tables, temperatures and heat flows of the
     /// results.
     pub value: Value,
-    /// The type of its value.
+    /// The type of its value; a functional may have another type than `value`.
     pub ty: Type,
+    /// Its functional of `value` over a run, a cycle or a window, if it is one number and not a
+    /// column.
+    pub over_time: Option<OverTime>,
     /// The expression as it was written.
     pub text: String,
+}
+
+impl Report {
+    /// The type of `value` at one moment.
+    pub fn type_of_moments(&self) -> Type {
+        self.over_time.as_ref().map_or(self.ty, |over_time| over_time.of_ty)
+    }
 }

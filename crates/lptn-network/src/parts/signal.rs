@@ -93,6 +93,13 @@ impl Course {
         }
     }
 
+    /// True unless it repeats after a period that is shorter than its points reach.
+    pub fn is_covered(&self) -> bool {
+        let AfterEnd::Repeat(period) = self.after() else { return true };
+        let (first, last) = self.span();
+        period > 0.0 && period.is_finite() && period >= (last - first) * (1.0 - 1e-12)
+    }
+
     /// True if it is a straight line between its points.
     pub(crate) fn is_straight(&self) -> bool {
         match self {

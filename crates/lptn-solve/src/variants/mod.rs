@@ -17,8 +17,9 @@ mod modes;
 mod run;
 mod star;
 
-use lptn_network::{End, Followed, HeatOf, Network, ParameterId, Value, Variants};
+use lptn_network::{End, Followed, HeatOf, InputError, Network, ParameterId, Value, Variants};
 
+use crate::limit;
 use crate::times::{Segment, segments};
 use course::{Course, Stretch};
 pub use course::{CourseSeen, Look};
@@ -126,6 +127,15 @@ impl<'a> LinearVariants<'a> {
     /// The scope in which expressions of results find the last solution.
     pub fn scope(&mut self) -> &mut lptn_network::Evaluation {
         self.variants.scope()
+    }
+
+    /// The margin of each limit at the last steady state, as those of a
+    /// [`SteadyState`](crate::SteadyState).
+    ///
+    /// # Errors
+    /// [`InputError`] if a limit cannot be evaluated.
+    pub fn limit_margins(&mut self) -> Result<Vec<f64>, InputError> {
+        limit::margins(self.network, self.variants.scope())
     }
 
     /// Solves the steady state with inputs as they are at `time` in s, for

@@ -13,6 +13,7 @@ use crate::compare::error::CompareError;
 use crate::compare::heat::{HeatOut, HeatOver};
 use crate::compare::limits::{self, CandidateLimit};
 use crate::compare::peak::{Peak, hottest, peak};
+use crate::compare::reports::{self, CandidateReport};
 use crate::compare::settled::{self, Settled};
 
 /// The compared results of a candidate. Temperatures in K, times in s.
@@ -29,6 +30,8 @@ pub struct Candidate {
     pub time_to_95: Option<f64>,
     /// Every limit, in the order of the network.
     pub limits: Vec<CandidateLimit>,
+    /// Every report that is a number over time, in the order of the network.
+    pub reports: Vec<CandidateReport>,
     /// The periodic steady state if signals repeat themselves: its results, or why there is none.
     pub settled: Option<Result<Settled, Arc<PeriodicError>>>,
     /// The distribution of its heat.
@@ -116,6 +119,7 @@ impl Candidate {
             steady: None,
             time_to_95: None,
             limits: limits::named(network, limits),
+            reports: Vec::new(),
             settled: None,
             heat: HeatOut::default(),
             capacity: network.thermal_nodes().map(|id| network.capacity(id)).sum(),
@@ -154,6 +158,7 @@ impl Candidate {
             hottest: hottest.map(|(id, _)| network.nodes()[id.index()].name.clone()),
             peak: temperature.map(|temperature| Peak { temperature, at: None }),
             steady: temperature.filter(|_| constant),
+            reports: reports::named(network, &steady.reports_over_time(network)?),
             settled,
             heat: HeatOut::in_steady_state(network, &steady),
             several: doubtful(&steady),
@@ -171,6 +176,7 @@ impl Candidate {
             heat: HeatOut::over_time(network, &answer.solution, HeatOver::Cycle),
             statistics: *answer.solution.statistics(),
             looks: answer.solution.looks(),
+            reports: reports::named(network, answer.solution.reports_over_time()),
             settled: Some(Ok(settled)),
             ..Self::of(network, &limits, answer.trust)
         }
@@ -199,6 +205,7 @@ impl Candidate {
             peak: node.map(|node| peak(node, run)),
             steady: node.and_then(|node| node.steady),
             time_to_95: node.and_then(|node| node.time_to_95),
+            reports: reports::named(network, answer.reports_over_time()),
             settled: Settled::find(system, Some(run), observer)?
                 .map(|found| found.map(|found| found.settled)),
             heat: HeatOut::over_time(network, &answer, HeatOver::Run),

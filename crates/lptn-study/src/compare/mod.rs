@@ -8,6 +8,7 @@ mod heat;
 mod limits;
 mod peak;
 mod rank;
+mod reports;
 mod settled;
 mod table;
 
@@ -19,5 +20,6 @@ pub use limits::CandidateLimit;
 pub use peak::Peak;
 pub(crate) use peak::hottest;
 pub use rank::{SortKey, order};
+pub use reports::CandidateReport;
 pub use settled::Settled;
 pub use table::{CompareRow, compare_table};

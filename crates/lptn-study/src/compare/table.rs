@@ -1,14 +1,15 @@
 //! A comparison as a table for files.
 
-use lptn_network::LimitSeverity;
 use lptn_solve::{Table, TableOf};
-use lptn_units::Unit;
+use lptn_units::{Type, Unit};
 
 use crate::compare::candidate::Candidate;
 use crate::compare::doubt::Scatter;
 use crate::compare::heat::{HeatOut, HeatOver, PathShare};
 use crate::compare::limits::CandidateLimit;
+use crate::compare::reports::CandidateReport;
 use crate::compare::settled::Settled;
+use crate::standing::standing;
 
 /// A candidate with its names.
 #[derive(Debug)]
@@ -35,20 +36,17 @@ impl CompareRow {
             Ok(candidate) => candidate,
             Err(code) => return code,
         };
-        let broken =
-            |severity| candidate.limits.iter().any(|l| l.broken() && l.severity == severity);
-        match (broken(LimitSeverity::Error), broken(LimitSeverity::Warning)) {
-            (true, _) => "broken",
-            (false, true) => "warning",
-            (false, false) if candidate.limits.is_empty() => "none",
-            (false, false) if candidate.limits.iter().any(CandidateLimit::is_open) => "not judged",
-            (false, false) => "kept",
-        }
+        standing(candidate.limits.iter().map(|limit| (limit.margin, limit.severity)))
     }
 
     /// Its result for the limit of this name, if it has one.
     pub fn limit(&self, name: &str) -> Option<&CandidateLimit> {
         self.candidate()?.limits.iter().find(|limit| limit.name == name)
+    }
+
+    /// Its number for the report of this name, if it has one.
+    pub fn report(&self, name: &str) -> Option<&CandidateReport> {
+        self.candidate()?.reports.iter().find(|report| report.name == name)
     }
 
     /// The share that the boundary or path of this name takes of the heat, if it has one.
@@ -102,6 +100,11 @@ impl CompareRow {
         union(rows, |candidate| candidate.limits.iter().map(|limit| limit.name.as_str()).collect())
     }
 
+    /// The names of all reports over time of some rows.
+    pub fn report_names(rows: &[Self]) -> Vec<&str> {
+        union(rows, |candidate| candidate.reports.iter().map(|r| r.name.as_str()).collect())
+    }
+
     /// The names of all boundaries of some rows.
     pub fn boundary_names(rows: &[Self]) -> Vec<&str> {
         union(rows, |candidate| {
@@ -148,6 +151,9 @@ pub fn compare_table(rows: &[CompareRow], unit: &Unit) -> Table {
     general(rows, unit, &mut table);
     for name in CompareRow::limit_names(rows) {
         of_limit(rows, name, &mut table);
+    }
+    for name in CompareRow::report_names(rows) {
+        of_report(rows, (name, unit), &mut table);
     }
     scatter(rows, &mut table);
     of_heat(rows, &mut table);
@@ -211,6 +217,30 @@ fn of_heat(rows: &[CompareRow], table: &mut TableOf<'_, CompareRow>) {
         table.column("heat", "J", |row| heat(row).map_or(f64::NAN, |heat| heat.all));
         let stored = |row: &CompareRow| heat(row).and_then(|heat| heat.stored);
         table.column("stored", "-", |row| stored(row).unwrap_or(f64::NAN));
+    }
+}
+
+/// The numbers of the reports of a name. Candidates may mean different quantities by one name:
+/// each type has its own column, distinguished by the unit.
+fn of_report(
+    rows: &[CompareRow],
+    (name, unit): (&str, &Unit),
+    table: &mut TableOf<'_, CompareRow>,
+) {
+    let mut types: Vec<Type> = Vec::new();
+    for found in rows.iter().filter_map(|row| row.report(name)).map(|report| report.ty) {
+        if !types.contains(&found) {
+            types.push(found);
+        }
+    }
+    for of in types {
+        let text = if of.absolute { unit.text.clone() } else { of.dimension.si_unit() };
+        let shown = |si: f64| if of.absolute { unit.from_si(si) } else { si };
+        let own = |row: &CompareRow| {
+            let report = row.report(name).filter(|report| report.ty == of);
+            report.map_or(f64::NAN, |report| shown(report.value))
+        };
+        table.column(format!("{name}.report"), text, own);
     }
 }
 

@@ -13,6 +13,7 @@ use lptn_units::statistics::quantile;
 
 use crate::size::aim::Aim;
 use crate::size::error::{SizeError, TrialError};
+use crate::size::load_case::LoadCase;
 use crate::uncertainty::{Inputs, Uncertain};
 
 /// The finest tolerance in K of runs that are judged, unless the run itself needs a finer one. Ten
@@ -66,15 +67,6 @@ pub enum Moments<'a> {
     Run(&'a RunOf<'a>),
     /// At every moment of the periodic steady state that lasts from start to stop.
     Periodic(&'a RunOf<'a>),
-}
-
-/// Parameters that are set together: a hot day, a cold start.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LoadCase {
-    /// Its name.
-    pub name: String,
-    /// The parameters with their values in SI units.
-    pub set: Vec<(ParameterId, f64)>,
 }
 
 /// The probability of being kept that is required, by the `±` of parameters.
@@ -174,9 +166,14 @@ impl<'a> Judge<'a> {
             Moments::Steady(_) => {
                 let required = demand.requirements.iter().flat_map(Requirement::sides);
                 let required: Vec<_> = required.chain(sought.map(|aim| aim.value)).collect();
-                let changing = demand.network.changing_inputs_of(&required);
-                if !changing.is_empty() {
-                    return Err(SizeError::Changing(changing));
+                let with_signals = demand.cases.iter().filter(|case| !case.signals.is_empty());
+                let of_cases =
+                    with_signals.filter_map(|case| case.network(demand.network, &[]).ok());
+                for network in [demand.network.clone()].into_iter().chain(of_cases) {
+                    let changing = network.changing_inputs_of(&required);
+                    if !changing.is_empty() {
+                        return Err(SizeError::Changing(changing));
+                    }
                 }
                 demand.network.clone()
             }
@@ -197,7 +194,7 @@ impl<'a> Judge<'a> {
         design: &[(ParameterId, f64)],
         care: Care,
     ) -> Result<Judged, SizeError> {
-        let as_it_is = [LoadCase { name: String::new(), set: Vec::new() }];
+        let as_it_is = [LoadCase::default()];
         let cases = if self.demand.cases.is_empty() { &as_it_is } else { self.demand.cases };
         let mut all = Judged::default();
         for case in cases {
@@ -286,17 +283,15 @@ impl<'a> Judge<'a> {
         design: &[(ParameterId, f64)],
         time: f64,
     ) -> Result<Vec<Vec<f64>>, TrialError> {
-        let state = |set: &[(ParameterId, f64)]| {
-            let mut parameters = self.base.given();
-            set.iter().chain(design).for_each(|(id, value)| parameters.set(*id, *value));
-            let network = self.base.with(&parameters).map_err(TrialError::Network)?;
+        let state = |case: &LoadCase| {
+            let network = case.network(&self.base, design).map_err(TrialError::Network)?;
             let system = ThermalSystem::assemble(&network)?;
             let steady = lptn_analysis::steady(&system, time).map_err(TrialError::Steady)?;
             Ok(steady.result.state.temperatures)
         };
         match self.demand.cases {
-            [] => Ok(vec![state(&[])?]),
-            cases => cases.iter().map(|case| state(&case.set)).collect(),
+            [] => Ok(vec![state(&LoadCase::default())?]),
+            cases => cases.iter().map(state).collect(),
         }
     }
 
@@ -305,9 +300,7 @@ impl<'a> Judge<'a> {
         (design, case): (&[(ParameterId, f64)], &LoadCase),
         care: Care,
     ) -> Result<Judged, TrialError> {
-        let mut parameters = self.base.given();
-        case.set.iter().chain(design).for_each(|(id, value)| parameters.set(*id, *value));
-        let network = self.base.with(&parameters).map_err(TrialError::Network)?;
+        let network = case.network(&self.base, design).map_err(TrialError::Network)?;
         self.demand.netlist.meshes(&network).map_err(TrialError::Gears)?;
         self.count.fetch_add(1, Ordering::Relaxed);
         self.asked(&network, care)

@@ -1,9 +1,10 @@
 //! Candidates of small linear networks: no system and no integrator, the modes in closed form.
 
 use lptn_netlist::{Functional, SweepOver};
-use lptn_network::{History, IntegratorChoice, ParameterId};
+use lptn_network::{Bound, Evaluation, History, IntegratorChoice, Limit, ParameterId, Value};
 use lptn_solve::{CourseSeen, FollowedQuantity, LinearVariants, Look};
 
+use crate::sweep::limits::is_temperature;
 use crate::sweep::task::{Candidate, SweepTask};
 
 /// A sweep whose candidates are solved in closed form. A candidate that has no closed form is left
@@ -17,6 +18,8 @@ pub struct LinearSweep<'a> {
     span: (f64, f64),
     breakpoints: Vec<f64>,
     tolerance: f64,
+    /// For each limit of a steady state true if no input that changes with time determines it.
+    constant: Vec<bool>,
 }
 
 impl<'a> LinearSweep<'a> {
@@ -47,7 +50,9 @@ impl<'a> LinearSweep<'a> {
             }
         }
         let known = network.ranged().is_empty();
-        known.then_some(Self { task, linear, quantities, span, breakpoints, tolerance })
+        let inputs = network.limits().iter().map(Limit::sides);
+        let constant = inputs.map(|sides| network.changing_inputs_of(&sides).is_empty()).collect();
+        known.then_some(Self { task, linear, quantities, span, breakpoints, tolerance, constant })
     }
 
     /// Solves a candidate; `false` if it has to be solved as others are.
@@ -56,16 +61,22 @@ impl<'a> LinearSweep<'a> {
         self.task.cases().values(case, &mut candidate.values);
         (candidate.outside, candidate.failed) = (0, None);
         candidate.reports.clear();
-        self.linear.set(&candidate.values) && self.reported(&mut candidate.reports).is_some()
+        candidate.limits.clear();
+        self.linear.set(&candidate.values) && self.reported(candidate).is_some()
     }
 
-    fn reported(&mut self, reports: &mut Vec<f64>) -> Option<()> {
+    fn reported(&mut self, Candidate { reports, limits, .. }: &mut Candidate) -> Option<()> {
         let study = self.task.study();
         if study.over == SweepOver::Steady {
             self.linear.steady(self.span.0)?;
             for measure in &study.reports {
                 reports.push(measure.of.at(self.linear.scope()).ok()? + 0.0);
             }
+            let margins = self.linear.limit_margins().ok()?;
+            let judged = margins.iter().zip(&self.constant);
+            limits.extend(
+                judged.map(|(margin, constant)| if *constant { *margin } else { f64::NAN }),
+            );
         } else {
             let asked = (self.quantities.as_slice(), self.tolerance);
             let seen = self.linear.run(self.span, &self.breakpoints, asked)?;
@@ -77,26 +88,53 @@ impl<'a> LinearSweep<'a> {
                 };
                 reports.push(number + 0.0);
             }
+            for limit in self.task.network().limits() {
+                let seen = of_course(seen.next()?, length);
+                limits.push(margin((limit, &seen), self.linear.scope(), self.tolerance)?);
+            }
         }
         reports.iter().all(|number| number.is_finite()).then_some(())
     }
 }
 
-/// The quantities that the reports over time follow.
+/// The quantities that the reports over time and the limits follow.
 fn followed<'a>(task: &'a SweepTask) -> Option<Vec<FollowedQuantity<'a>>> {
-    let timed = task.study().reports.iter().filter(|r| r.functional() != Functional::Value);
-    timed
-        .map(|measure| {
-            let with = task.network().follows(&measure.of)?;
-            let look = match measure.functional() {
-                Functional::Life => return None,
-                Functional::Last | Functional::Value => Look::End,
-                Functional::Mean | Functional::Integral => Look::Integral,
-                _ => Look::Extremes,
-            };
-            Some(FollowedQuantity { value: &measure.of, with, look })
-        })
-        .collect()
+    let timed = task.study().reports.iter().filter(|measure| measure.is_over_time());
+    let timed = timed.map(|measure| (&measure.of, measure.functional()));
+    let limits = task.network().limits().iter().map(|limit| (&limit.of, of_limit(limit)));
+    let one = |(value, functional): (&'a Value, Functional)| {
+        let with = task.network().follows(value)?;
+        let look = match functional {
+            Functional::Life => return None,
+            Functional::Last | Functional::Value => Look::End,
+            Functional::Mean | Functional::Integral => Look::Integral,
+            _ => Look::Extremes,
+        };
+        Some(FollowedQuantity { value, with, look })
+    };
+    timed.chain(limits).map(one).collect()
+}
+
+/// The functional that a limit compares.
+fn of_limit(limit: &Limit) -> Functional {
+    match (&limit.over_time[0], limit.bound) {
+        (Some(over_time), _) => over_time.functional,
+        (None, Bound::Below) => Functional::Max,
+        (None, Bound::Above) => Functional::Min,
+    }
+}
+
+/// The margin of a limit over a run. `None` if a temperature passes it by no more than the error of
+/// a run: the run decides then, which knows whether it is broken from the start.
+fn margin(
+    (limit, seen): (&Limit, &History),
+    scope: &mut Evaluation,
+    tolerance: f64,
+) -> Option<f64> {
+    let (of, bound) = (of_limit(limit).of(seen, None), limit.value.at(scope).ok()?);
+    let margin = if limit.bound == Bound::Below { bound - of } else { of - bound };
+    let near = is_temperature(limit) && margin < 0.0 && margin >= -10.0 * tolerance.max(1e-9);
+    (margin.is_finite() && !near).then_some(margin)
 }
 
 fn of_course(seen: &CourseSeen, length: f64) -> History {

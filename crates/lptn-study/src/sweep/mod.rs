@@ -8,10 +8,12 @@
 mod cases;
 mod error;
 mod latin;
+mod limits;
 mod linear;
 mod task;
 
 pub use cases::Cases;
 pub use error::SweepError;
+pub use limits::{LimitsJudged, SweepLimits};
 pub use linear::LinearSweep;
 pub use task::{Candidate, SweepTask};

@@ -1,16 +1,17 @@
 //! One candidate after the other: values in, numbers out.
 //!
 //! The reports of a sweep are additional reports of the network that only the sweep uses
-//! (`Network::reporting`). Windows over the whole run read them.
+//! (`Network::reporting`). A run follows those that are numbers over time.
 
-use lptn_analysis::{Analysis, AnalysisError, Found, RunAnalysis, RunError};
+use lptn_analysis::{Analysis, AnalysisError, Found, LimitResult, RunAnalysis, RunError};
 use lptn_assembly::ThermalSystem;
-use lptn_netlist::{Functional, Measure, Netlist, SweepOver, SweepStudy};
+use lptn_netlist::{Measure, Netlist, SweepOver, SweepStudy};
 use lptn_network::{Network, Parameters, Report, ReportId, RunSettings};
-use lptn_solve::{Proceed, Selection, Solution, SteadyState, Window};
+use lptn_solve::{Proceed, Solution, SteadyState};
 
 use crate::sweep::cases::Cases;
 use crate::sweep::error::SweepError;
+use crate::sweep::limits::SweepLimits;
 
 /// The code of a report that is not a number.
 const NOT_FINITE: &str = "sweep::not_finite";
@@ -22,6 +23,8 @@ pub struct Candidate {
     pub values: Vec<f64>,
     /// The reports in SI units and in the order of the study; NaN if it failed.
     pub reports: Vec<f64>,
+    /// The margin of each limit in SI units; NaN if it was not judged. Empty if it failed.
+    pub limits: Vec<f64>,
     /// Number of laws outside of the ranges in which they are known.
     pub outside: usize,
     /// The code of the error that it failed with.
@@ -52,8 +55,7 @@ pub struct SweepTask {
     /// The network with the reports of the study as its further reports.
     network: Network,
     reports: Vec<ReportId>,
-    /// The columns of those that are taken over time.
-    columns: Selection,
+    limits: SweepLimits,
     parameters: Parameters,
 }
 
@@ -66,21 +68,15 @@ impl SweepTask {
         let report = |measure: &Measure| Report {
             name: measure.name.clone(),
             value: measure.of.clone(),
-            ty: measure.over_time.of_ty,
+            ty: measure.ty,
+            over_time: measure.is_over_time().then(|| measure.over_time.clone()),
             text: measure.text.clone(),
         };
         let (network, reports) =
             netlist.network.reporting(study.reports.iter().map(report).collect());
-        let timed: Vec<ReportId> = study
-            .reports
-            .iter()
-            .zip(&reports)
-            .filter(|(measure, _)| measure.functional() != Functional::Value)
-            .map(|(_, id)| *id)
-            .collect();
-        let columns = Selection::of_reports(&timed);
         let parameters = network.given();
-        let task = Self { netlist, study, cases, network, reports, columns, parameters };
+        let limits = SweepLimits::of(&network);
+        let task = Self { netlist, study, cases, network, reports, limits, parameters };
         task.check()?;
         Ok(task)
     }
@@ -121,6 +117,11 @@ impl SweepTask {
         &self.network
     }
 
+    /// The limits that every candidate is judged by.
+    pub fn limits(&self) -> &SweepLimits {
+        &self.limits
+    }
+
     /// The netlist.
     pub(super) fn netlist(&self) -> &Netlist {
         &self.netlist
@@ -143,19 +144,16 @@ impl SweepTask {
         let found = self.solved(&values, control);
         let none = || vec![f64::NAN; self.study.reports.len()];
         match found {
-            Ok((reports, outside)) => Some(Candidate { values, reports, outside, failed: None }),
+            Ok(found) => Some(Candidate { values, ..found }),
             Err(Lost::Failed(code)) => {
-                Some(Candidate { values, reports: none(), outside: 0, failed: Some(code) })
+                let (reports, failed) = (none(), Some(code));
+                Some(Candidate { values, reports, failed, ..Candidate::default() })
             }
             Err(Lost::Interrupted) => None,
         }
     }
 
-    fn solved(
-        &self,
-        values: &[f64],
-        control: &dyn Fn() -> Proceed,
-    ) -> Result<(Vec<f64>, usize), Lost> {
+    fn solved(&self, values: &[f64], control: &dyn Fn() -> Proceed) -> Result<Candidate, Lost> {
         let mut parameters = self.parameters.clone();
         for (id, &value) in self.cases.parameters().zip(values) {
             parameters.set(id, value);
@@ -169,13 +167,17 @@ impl SweepTask {
         let system = ThermalSystem::assemble(&network).map_err(failed)?;
         let analysis = self.analysis(&network, settings.as_ref())?;
         let found = analysis.ask(&system, &mut |_| control())?;
-        let reports = match &found {
-            Found::Steady(answer) => self.in_steady_state(&network, answer)?,
-            Found::Run(answer) => self.over_time(answer)?,
-            Found::Cycle(answer) => self.over_time(&answer.solution)?,
+        let (reports, limits) = match &found {
+            Found::Steady(answer) => {
+                let limits = LimitResult::of_steady(&network, answer).map_err(failed)?;
+                (self.in_steady_state(&network, answer)?, limits)
+            }
+            Found::Run(answer) => (self.over_time(answer)?, of_run(answer)),
+            Found::Cycle(answer) => (self.over_time(&answer.solution)?, of_run(&answer.solution)),
         };
+        let (outside, limits) = (found.trust().out_of_range.len(), limits.iter().map(margin));
         match reports.iter().all(|number| number.is_finite()) {
-            true => Ok((reports, found.trust().out_of_range.len())),
+            true => Ok(Candidate { reports, limits: limits.collect(), outside, ..<_>::default() }),
             false => Err(Lost::Failed(NOT_FINITE)),
         }
     }
@@ -185,24 +187,16 @@ impl SweepTask {
         network: &Network,
         settings: Option<&RunSettings>,
     ) -> Result<Analysis, Lost> {
+        // reports over time are followed anyway
+        let bare = |settings: &RunSettings| RunAnalysis::of(network, settings).bare();
         Ok(match self.study.over {
             SweepOver::Steady => Analysis::Steady { time: self.start(), within: None },
-            SweepOver::Run => {
-                Analysis::Run(self.run(network, settings.ok_or(Lost::Failed("run::no_run"))?))
-            }
+            SweepOver::Run => Analysis::Run(bare(settings.ok_or(Lost::Failed("run::no_run"))?)),
             SweepOver::Periodic => {
                 let period = self.period(network).ok_or(Lost::Failed("sweep::no_period"))?;
-                Analysis::Cycle(self.run(network, &RunSettings::cycle(settings, period)))
+                Analysis::Cycle(bare(&RunSettings::cycle(settings, period)))
             }
         })
-    }
-
-    /// A run that takes the reports over the whole of it, and keeps nothing else.
-    fn run(&self, network: &Network, settings: &RunSettings) -> RunAnalysis {
-        let (name, of) = (self.study.name.clone(), self.columns.clone());
-        let window = Window { name, from: settings.start, to: settings.stop, of };
-        let windows = if self.columns.is_empty() { Vec::new() } else { vec![window] };
-        RunAnalysis::of(network, settings).bare().over(windows)
     }
 
     fn in_steady_state(&self, network: &Network, steady: &SteadyState) -> Result<Vec<f64>, Lost> {
@@ -212,27 +206,30 @@ impl SweepTask {
     }
 
     fn over_time(&self, solution: &Solution) -> Result<Vec<f64>, Lost> {
-        let seen = solution.windows().iter();
-        let seen = seen.flat_map(|window| window.columns.iter().map(move |c| (window, c)));
         let mut scope = solution.network().evaluation();
-        let mut seen = seen;
-        let mut reports = Vec::with_capacity(self.study.reports.len());
-        for measure in &self.study.reports {
-            let number = match measure.functional() {
-                Functional::Value => measure.of.at(&mut scope).map_err(failed)?,
-                functional => {
-                    let (window, column) = seen.next().ok_or(Lost::Failed(NOT_FINITE))?;
-                    if column.is_open() {
-                        return Err(Lost::Failed("run::unresolved"));
-                    }
-                    let life = measure.over_time.life.as_ref().map(|life| life.at(&mut scope));
-                    let life = life.transpose().map_err(failed)?;
-                    functional.of(&window.history(column), life)
-                }
-            };
-            reports.push(number + 0.0); // no `-0` in columns
-        }
-        Ok(reports)
+        let number = |(measure, id): (&Measure, &ReportId)| {
+            if !measure.is_over_time() {
+                return Ok(measure.of.at(&mut scope).map_err(failed)? + 0.0); // no `-0` in columns
+            }
+            let seen = solution.reports_over_time().iter().find(|seen| seen.report == *id);
+            match seen.ok_or(Lost::Failed(NOT_FINITE))? {
+                seen if seen.open > 0.0 => Err(Lost::Failed("run::unresolved")),
+                seen => Ok(seen.value),
+            }
+        };
+        self.study.reports.iter().zip(&self.reports).map(number).collect()
+    }
+}
+
+fn of_run(solution: &Solution) -> Vec<LimitResult> {
+    solution.limits().iter().map(LimitResult::of_run).collect()
+}
+
+/// The margin of a limit; not judged if its possible error decides whether the limit is kept.
+fn margin(found: &LimitResult) -> f64 {
+    match found.open > 0.0 && found.open >= found.margin.abs() {
+        true => f64::NAN,
+        false => found.margin,
     }
 }
 

@@ -41,8 +41,10 @@ fn wrote(answer: &RunAnswer, folder: &Folder, console: &Console) {
     let took = duration(answer.wall_time, 2);
     let rows = answer.table.rows();
     let windows = if answer.solution.windows().is_empty() { "" } else { ", windows.csv" };
+    let reports = if answer.solution.reports_over_time().is_empty() { "" } else { ", reports.csv" };
     let bands = if answer.uncertainty().is_some() { ", uncertainty.csv, ranking.csv" } else { "" };
-    let files = format!("{}{bands}, {EVENTS}{windows}, {STATE}, {MANIFEST}", path.display());
+    let files =
+        format!("{}{bands}, {EVENTS}{windows}{reports}, {STATE}, {MANIFEST}", path.display());
     let mut pieces = words(&files);
     pieces.push(format!("({rows} rows, solved in {took})"));
     console.note(&labelled("wrote  ", &pieces, WIDTH).join("\n"));

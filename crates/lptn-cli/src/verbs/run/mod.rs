@@ -17,7 +17,9 @@ use lptn_report::{write_csv, write_rows};
 pub(crate) use args::RunArgs;
 
 use crate::console::Console;
-use crate::files::names::{EVENTS, MANIFEST, RANKING, RESULT, STATE, UNCERTAINTY, WINDOWS};
+use crate::files::names::{
+    EVENTS, MANIFEST, RANKING, REPORTS, RESULT, STATE, UNCERTAINTY, WINDOWS,
+};
 use crate::files::{Folder, environment};
 use crate::input::Load as _;
 
@@ -60,6 +62,9 @@ pub(crate) fn write(answer: &RunAnswer, folder: &Folder, console: &Console) -> R
     if let Some(rows) = answer.windows() {
         files.write(WINDOWS, |out| write_rows(&rows, out))?;
     }
+    if let Some(rows) = answer.reports_over_time() {
+        files.write(REPORTS, |out| write_rows(&rows, out))?;
+    }
     if let Some([bands, ranking]) = answer.uncertainties() {
         files.write(UNCERTAINTY, |out| write_csv(&bands, out))?;
         files.write(RANKING, |out| write_csv(&ranking, out))?;
@@ -67,5 +72,5 @@ pub(crate) fn write(answer: &RunAnswer, folder: &Folder, console: &Console) -> R
     let environment = environment(answer.wall_time, &console.phases.seconds());
     let manifest = answer.manifest(files.written().to_vec(), environment);
     files.write(MANIFEST, |out| out.write_all(manifest.text()?.as_bytes()))?;
-    files.commit(&[EVENTS, WINDOWS, UNCERTAINTY, RANKING])
+    files.commit(&[EVENTS, WINDOWS, REPORTS, UNCERTAINTY, RANKING])
 }

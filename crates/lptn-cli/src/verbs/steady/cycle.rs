@@ -10,7 +10,7 @@ use lptn_answer::input::Input;
 use super::SteadyArgs;
 use crate::console::Console;
 use crate::files::Folder;
-use crate::files::names::{MANIFEST, RESULT, WINDOWS};
+use crate::files::names::{MANIFEST, REPORTS, RESULT, WINDOWS};
 use crate::input::Load as _;
 use crate::verbs::run;
 use crate::verdict;
@@ -40,7 +40,11 @@ pub(super) fn cycle(args: &SteadyArgs, console: &Console) -> Result<Exit, Failur
     console.warn(&input.netlist.files, &answer.beside());
     if let Some(folder) = &folder {
         let path = folder.path().join(RESULT);
-        console.note(&format!("wrote  {}, {WINDOWS}, {MANIFEST}", path.display()));
+        let reports = match answer.run.solution.reports_over_time() {
+            [] => String::new(),
+            _ => format!(", {REPORTS}"),
+        };
+        console.note(&format!("wrote  {}, {WINDOWS}{reports}, {MANIFEST}", path.display()));
     }
     let limits = answer.run.limits();
     Ok(verdict::conclude(&answer.run.judgement(&limits), console))

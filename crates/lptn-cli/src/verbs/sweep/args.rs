@@ -32,6 +32,9 @@ pub(crate) struct SweepArgs {
     /// Give a parameter a value; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     pub(crate) set: Vec<String>,
+    /// Take the parameters and signals of a load case, [case.NAME]; --set goes before it
+    #[arg(long, value_name = "NAME")]
+    pub(crate) case: Option<String>,
     /// Print a table, csv or json
     #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
     #[arg(value_parser = one_of(&Format::ALL, Format::key))]
@@ -74,6 +77,9 @@ pub(crate) struct PlanArgs {
     /// Give a parameter a value; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     pub(crate) set: Vec<String>,
+    /// Take the parameters and signals of a load case, [case.NAME]; --set goes before it
+    #[arg(long, value_name = "NAME")]
+    pub(crate) case: Option<String>,
     /// Write a job array for Slurm
     #[arg(long, required_unless_present = "hyperqueue", conflicts_with = "hyperqueue")]
     pub(crate) slurm: bool,

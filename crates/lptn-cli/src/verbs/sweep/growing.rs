@@ -117,9 +117,9 @@ impl Growing {
             growing.file.holds(&first);
             length += first.len() as u64;
         }
-        let columns = asked.header().len();
+        let shape = asked.shape();
         while let Some(line) = lines.next_line()? {
-            let row = read_row(&line, columns, asked.ranged).filter(|row| row.case == next);
+            let row = read_row(&line, shape).filter(|row| row.case == next);
             let row = row.ok_or_else(|| damaged(&growing.path, next - asked.range.start + 2))?;
             tally.row(&row);
             growing.file.holds(&line);

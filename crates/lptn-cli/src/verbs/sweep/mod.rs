@@ -40,7 +40,7 @@ pub(crate) fn sweep(args: &SweepArgs, console: &Console) -> Result<Exit, Failure
 fn candidates(args: &SweepArgs, console: &Console) -> Result<Exit, Failure> {
     // without a verb there is a file
     let file = args.file.clone().unwrap_or_default();
-    let source = Source { set: args.set.clone(), ..Source::of(file) };
+    let source = Source { file, set: args.set.clone(), case: args.case.clone() };
     let input = Arc::new(console.phases.timed("read", || Input::load(&source))?);
     let question = SweepQuestion {
         name: args.name.clone(),

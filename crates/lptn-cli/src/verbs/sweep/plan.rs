@@ -12,7 +12,7 @@ use lptn_answer::input::{Input, quoted};
 use lptn_answer::sweep as asked;
 
 pub(crate) fn plan(args: &PlanArgs, console: &Console) -> Result<Exit, Failure> {
-    let source = Source { set: args.set.clone(), ..Source::of(args.file.clone()) };
+    let source = Source { file: args.file.clone(), set: args.set.clone(), case: args.case.clone() };
     let input = Input::load(&source)?;
     let study = asked::study(&input, args.name.as_deref())?;
     let cases = study.plan(&input.netlist.network).map(|plan| plan.cases).unwrap_or(0);
@@ -37,8 +37,9 @@ impl Job {
         let folder = args.output.clone().unwrap_or_else(|| asked::folder(input, study));
         let folder = quoted(&folder.display().to_string());
         let file = quoted(&args.file.display().to_string());
-        let set: Vec<String> =
-            args.set.iter().map(|set| format!(" --set {}", quoted(set))).collect();
+        let set = args.set.iter().map(|set| format!(" --set {}", quoted(set)));
+        let case = args.case.iter().map(|case| format!(" --case {}", quoted(case)));
+        let set: Vec<String> = case.chain(set).collect();
         let name = &study.name;
         // a part without a candidate would have nothing to do
         let shards = args.shards.min(cases.max(1));
