@@ -12,6 +12,7 @@ mod element;
 mod eliminate;
 mod error;
 mod heat;
+mod links;
 mod monotone;
 mod outer;
 mod part;

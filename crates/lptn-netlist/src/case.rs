@@ -209,7 +209,7 @@ impl<'a> Elaboration<'a> {
             self.require(&fields, "set")?;
         }
         let empty = |raw: &RawEntry| matches!(&raw.value.kind, RawKind::Table(table) if table.entries.is_empty());
-        for one in set.into_iter().chain(signals).filter(|one| empty(one)) {
+        if let Some(one) = set.into_iter().chain(signals).find(|one| empty(one)) {
             let wanted =
                 if one.key == "set" { "a table with a parameter" } else { "a table with a signal" };
             self.report(fields.wrong_shape(&one.key, &one.value, wanted));

@@ -113,6 +113,12 @@ pub(crate) fn share(factor: f64) -> f64 {
     if factor > BORNE { (SPARE * factor).recip() } else { 1.0 }
 }
 
+/// The growth of errors that a run made up for, if the integrator had no less than `finest` of the
+/// tolerance.
+pub(crate) fn made_up(grows: f64, finest: f64) -> f64 {
+    grows.min((SPARE * finest).recip()).max(1.0)
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(
@@ -193,6 +199,13 @@ mod tests {
         let shares = [0.5, 1.0, 1.09, 1.2, 10.0].map(super::share);
         let expected = [1.0, 1.0, 1.0, 1.0 / 4.8, 1.0 / 40.0];
         assert!(shares.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{shares:?}");
+    }
+
+    #[test]
+    fn a_run_makes_up_for_as_much_as_its_finest_tolerance_allows() {
+        assert!((super::made_up(100.0, 1e-4) - 100.0).abs() < 1e-12);
+        assert!((super::made_up(100.0, 1e-2) - 25.0).abs() < 1e-12);
+        assert!((super::made_up(100.0, 1.0) - 1.0).abs() < 1e-12);
     }
 
     /// Errors do not grow in a network in which nothing acts on itself. If inputs change by

@@ -230,7 +230,7 @@ impl Transient {
 const SWITCHING: f64 = 0.01;
 
 /// In K: nothing is tightened below this value, because rounding decides there.
-const FINEST: f64 = 1e-8;
+pub(crate) const FINEST: f64 = 1e-8;
 
 /// The change of a temperature in K whose effect must be as accurate as the temperatures are. Heats
 /// are computed to the tolerance as a share of it, or to the tolerance times all capacities

@@ -4,7 +4,9 @@ use lptn_integrate::Statistics;
 
 use crate::error::TransientError;
 use crate::events::Switching;
+use crate::growth;
 use crate::guard::Guard;
+use crate::settings::FINEST;
 use crate::solution::{RunStatus, Solution};
 use crate::state::State;
 use crate::transient::Run;
@@ -54,7 +56,8 @@ impl Run<'_> {
         let end_state = State::of_carried(self.integrator.state().to_vec()).standing(stood);
         let end_state = end_state.filled(contents);
         let solution = self.recorder.into_solution(books, (statistics, events), end);
-        let (method, made_up) = (Some(self.method), self.grows);
+        let made_up = growth::made_up(self.grows, FINEST / self.tolerance);
+        let method = Some(self.method);
         Ok(Solution { end_state, controls, method, growth, made_up, unresolved, ..solution })
     }
 }

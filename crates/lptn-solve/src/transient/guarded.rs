@@ -8,6 +8,9 @@ use crate::settings::Transient;
 use crate::solution::{RunStatus, Solution};
 use crate::transient::{Break, Care, Run};
 
+/// A run is repeated with a tolerance below this share of the first one.
+const WORTH_IT: f64 = 0.5;
+
 /// Effort against errors of a run.
 #[derive(Clone, Copy)]
 pub(super) struct Effort {
@@ -17,10 +20,11 @@ pub(super) struct Effort {
 }
 
 impl Transient {
-    /// True if errors of a run grow by more than allowed, and a smaller tolerance can correct it.
+    /// True if errors of a run grow by more than allowed, and a smaller tolerance corrects it at
+    /// least in part.
     pub(super) fn can_make_up_for(&self, solution: &Solution) -> bool {
-        let needed = growth::share(solution.growth);
-        needed < 1.0 && needed >= self.finest() && solution.end() == RunStatus::Reached
+        let possible = growth::share(solution.growth).max(self.finest());
+        possible < WORTH_IT && solution.end() == RunStatus::Reached
     }
 }
 
