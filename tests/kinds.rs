@@ -12,7 +12,7 @@ use lptn_assembly::ThermalSystem;
 use lptn_laws::{FieldDeclaration, Formula, Kind, Range};
 use lptn_netlist::Netlist;
 use lptn_network::{ConductorFlow, Item, Network};
-use lptn_solve::{Adjoint, SteadyState};
+use lptn_solve::{Adjoint, StateRates, SteadyState};
 use lptn_units::{parse_quantity, suggest};
 
 /// Every kind with each of its laws.
@@ -71,6 +71,48 @@ fn netlist((kind, law): (Kind, Formula), value: impl Fn(&FieldDeclaration) -> St
         fields.join(", ")
     )
     .replace("[resistor]\npath", "path")
+}
+
+/// The change of the temperature of `b` in K/s at the start, if its path comes from a face of a body
+/// that conducts without limit, of this many cells; `None` if no such path may end at a face.
+fn change_from_a_face((kind, law): (Kind, Formula), cells: &str) -> Option<f64> {
+    let text = netlist((kind, law), example).replace("from = \"a\"", "from = \"plate.z1\"");
+    let plate = "[material]\nideal = { k = \"1 GW/(m K)\", density = \"1 kg/m^3\", cp = \"1 kJ/(kg \
+                 K)\" }\n[grid]\nplate = { material = \"ideal\", T0 = \"80 degC\", ";
+    // the area of the path is that of the face
+    let declared = law.declaration();
+    let own = declared.fields.iter().find(|field| declared.area.first() == Some(&field.key));
+    let area = own.map_or(2.0, si);
+    let text =
+        format!("{text}{plate}size = [\"{area} m\", \"1 m\", \"10 mm\"], cells = {cells} }}\n");
+    let network = match lptn::parse("kinds.toml", &text) {
+        Ok(netlist) => netlist.network,
+        Err(rejected) => {
+            let words = rejected.to_string();
+            let refused = ["network::stream_into_face", "network::whole_law"];
+            assert!(refused.iter().any(|code| words.contains(code)), "{words}\n{text}");
+            return None;
+        }
+    };
+    let system = ThermalSystem::assemble(&network).unwrap();
+    let mut rates = StateRates::new(&system).unwrap();
+    let b = network.node("b").unwrap();
+    let state = system.states().iter().position(|id| *id == b).unwrap();
+    Some(rates.at(0.0, &system.initial()).unwrap().states[state])
+}
+
+/// The cells of a face share a path: together they carry the heat of the whole.
+#[test]
+fn every_law_carries_the_same_heat_from_a_face_of_many_cells() {
+    let mut carried = 0;
+    for pair in all().into_iter().filter(|(kind, _)| !kind.is_source()) {
+        let [one, many] = ["[1, 1, 1]", "[4, 2, 1]"].map(|cells| change_from_a_face(pair, cells));
+        assert!(one.is_some() || many.is_none(), "{}", words(pair));
+        let (Some(one), Some(many)) = (one, many) else { continue };
+        assert!((many / one - 1.0).abs() < 1e-6, "{}: {many} is not {one}", words(pair));
+        carried += 1;
+    }
+    assert!(carried > 20, "{carried} laws may end at a face");
 }
 
 fn read(text: &str) -> Netlist {

@@ -8,6 +8,7 @@
 
 mod bodies;
 mod change;
+mod contents;
 mod element;
 mod eliminate;
 mod error;

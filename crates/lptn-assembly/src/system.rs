@@ -249,7 +249,7 @@ impl ThermalSystem {
         flow: &mut [f64],
     ) -> Result<(), InputError> {
         self.heat_flow(work, y, flow)?;
-        self.scale_flow(work, flow)
+        self.scaled.iter().try_for_each(|one| one.scale_flow(&self.network, work, flow))
     }
 
     /// The heat flow into each unknown in W.
@@ -323,7 +323,13 @@ impl ThermalSystem {
                 self.elements[i].add_slopes(&self.network, work, form, values)?;
             }
         }
-        self.scale_slopes(work, y, values)
+        if self.scaled.is_empty() {
+            return Ok(());
+        }
+        let mut flow = vec![0.0; self.unknowns.len()];
+        self.heat_flow(work, y, &mut flow)?;
+        let slopes = |one: &Scaled| one.scale_slopes(&self.network, work, (&flow, &mut *values));
+        self.scaled.iter().try_for_each(slopes)
     }
 
     /// The part of the Jacobian that constant conductances make up, in W/K: all of it for a linear

@@ -93,7 +93,7 @@ const BLOWN: LawDeclaration = LawDeclaration {
     kinds: &[Kind::Convection],
     named: true,
     form: Form::Other,
-    extent: Extent::Divided("area"),
+    extent: Extent::Divided(&["area"]),
     ..Film::DECLARATION
 };
 

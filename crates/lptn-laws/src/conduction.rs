@@ -71,7 +71,7 @@ const BODY: LawDeclaration = LawDeclaration {
     ordered: &[],
     area: &[],
     // no measure of a ball or of a bar is proportional to its conductance
-    extent: Extent::Divided("k"),
+    extent: Extent::Divided(&["k"]),
     validity: "",
     source: "",
     idle: &[],
@@ -142,7 +142,7 @@ impl Law for Slab {
         equation: "Q = k A / L (T_from - T_to)",
         fields: &[CONDUCTIVITY, AREA, length("thickness", "distance of the faces", "\"5 mm\"")],
         area: &["area"],
-        extent: Extent::Divided("area"),
+        extent: Extent::Divided(&["area"]),
         validity: "Heat in one direction: edges are insulated or far away.",
         source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \
             equation 3.6",
@@ -170,7 +170,7 @@ impl Law for Cylinder {
             length("length", "length", "\"0.3 m\""),
         ],
         ordered: &[["r_in", "r_out"]],
-        extent: Extent::Divided("length"),
+        extent: Extent::Divided(&["length"]),
         validity: "Heat that flows radially only: ends are insulated or the cylinder is long.",
         source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \
             equation 3.28",

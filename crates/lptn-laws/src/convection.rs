@@ -70,7 +70,7 @@ impl Law for Film {
         form: Form::Product,
         ordered: &[],
         area: &["area"],
-        extent: Extent::Divided("area"),
+        extent: Extent::Divided(&["area"]),
         validity: "By definition of h, which is that of the whole area.",
         source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \
             equations 1.3a, 3.9 and 3.20",

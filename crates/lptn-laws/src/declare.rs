@@ -139,8 +139,8 @@ pub enum Form {
 /// The division of a path into equal parallel ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
-    /// Each has a part of the field with this key.
-    Divided(&'static str),
+    /// Each has a part of the fields with these keys.
+    Divided(&'static [&'static str]),
     /// Each has a multiple of the field with this key.
     Multiplied(&'static str),
     /// It cannot be divided.

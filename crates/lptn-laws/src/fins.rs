@@ -91,7 +91,7 @@ impl Law for StraightFins {
             K_FIN,
         ],
         form: Form::Other,
-        extent: Extent::Whole,
+        extent: Extent::Divided(&["bare_area", "fin_area"]),
         area: &[],
         validity: "Thin fins with insulated tips; for heat through the tips `fin_length` is longer \
             by half a thickness. `from` is the base: k is taken at the mean of the ends.",

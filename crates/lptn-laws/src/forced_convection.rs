@@ -149,7 +149,7 @@ const BODY: LawDeclaration = LawDeclaration {
     kinds: &[Kind::Convection],
     named: true,
     form: Form::Other,
-    extent: Extent::Divided("area"),
+    extent: Extent::Divided(&["area"]),
     ..Film::DECLARATION
 };
 

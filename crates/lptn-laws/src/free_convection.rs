@@ -124,7 +124,7 @@ const BODY: LawDeclaration = LawDeclaration {
     named: true,
     reads_ends: true,
     form: Form::Other,
-    extent: Extent::Divided("area"),
+    extent: Extent::Divided(&["area"]),
     ..Film::DECLARATION
 };
 

@@ -131,7 +131,7 @@ impl Law for Joint {
         form: Form::Other,
         ordered: &[],
         area: &["area"],
-        extent: Extent::Divided("area"),
+        extent: Extent::Divided(&["area"]),
         validity: "Conforming rough surfaces under their first load, whose asperities flow. The \
             range of p/H was not read in the source.",
         groups: &[RELATIVE_PRESSURE],

@@ -4,7 +4,7 @@
 
 use lptn_units::Scalar;
 
-use crate::declare::{Confidence, FieldDeclaration, Group, Law, LawDeclaration};
+use crate::declare::{Confidence, Extent, FieldDeclaration, Group, Law, LawDeclaration};
 use crate::fins::{K_FIN, StraightFins, finned};
 use crate::fluid::{EXPANSION, Fluid, length, of_fluid, prandtl};
 use crate::forced_convection::SPEED;
@@ -200,5 +200,8 @@ impl Law for PlateFinsBlown {
 }
 
 /// The common part of the sinks.
-const SINK: LawDeclaration =
-    LawDeclaration { confidence: Confidence::Medium, ..StraightFins::DECLARATION };
+const SINK: LawDeclaration = LawDeclaration {
+    confidence: Confidence::Medium,
+    extent: Extent::Whole,
+    ..StraightFins::DECLARATION
+};

@@ -178,7 +178,7 @@ impl Law for Interference {
         form: Form::Other,
         ordered: &[["diameter", "hub_diameter"], ["bore", "diameter"]],
         area: &[],
-        extent: Extent::Divided("length"),
+        extent: Extent::Divided(&["length"]),
         validity: "`from` is the hub, `to` the shaft. Elastic, as long as each other, at rest: \
             centrifugal forces loosen a fast hub further. If the fit is lost, only `h_gap` \
             conducts.",

@@ -74,7 +74,7 @@ impl Law for ExchangeArea {
         form: Form::Product,
         ordered: &[],
         area: &[],
-        extent: Extent::Divided("Gr"),
+        extent: Extent::Divided(&["Gr"]),
         validity: "Nothing absorbs between the surfaces.",
         source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \
             equations 1.8 and 1.9",
@@ -101,7 +101,7 @@ impl Law for GreySurfaces {
         fields: &[EMISSIVITY, SEEN, VIEW_FACTOR],
         area: &["area", "view_factor"],
         idle: &[],
-        extent: Extent::Divided("area"),
+        extent: Extent::Divided(&["area"]),
         validity: "Exact for e = 1 (black surfaces) and for F = 1 (an enclosure of two); else \
             reflected radiation is assumed to leave.",
         source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \

@@ -86,7 +86,7 @@ impl Law for Conductance {
             )
         }],
         form: Form::Product,
-        extent: Extent::Divided("G"),
+        extent: Extent::Divided(&["G"]),
         ..Resistance::DECLARATION
     };
 

@@ -55,7 +55,7 @@ impl Law for Given {
         form: Form::Product,
         ordered: &[],
         area: &[],
-        extent: Extent::Divided("P"),
+        extent: Extent::Divided(&["P"]),
         validity: "By definition.",
         groups: &[],
         source: "Definition of a heat flow",

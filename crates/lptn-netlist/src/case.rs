@@ -9,7 +9,8 @@ use lptn_data::{Diagnostic, Span};
 use lptn_network::{BuildErrors, Course, Network, ParameterId, Signal, SignalId, Value};
 use lptn_units::EvalError;
 
-use crate::expand::course;
+use crate::course_text::course;
+use crate::csv_files::CASES;
 use crate::fields::{Fields, Owner};
 use crate::format::{Role, SectionDeclaration, Takes, shaped};
 use crate::listed::Listed;
@@ -23,7 +24,7 @@ use crate::toml_text::{TomlFields, key as toml_key, like};
 use crate::work::Elaboration;
 
 pub(crate) const CASE: SectionDeclaration = SectionDeclaration {
-    name: "case",
+    name: CASES,
     sentence: "A load case: parameters and signals that are set together, such as a hot day or a \
                drive cycle.",
     role: Role::Study,

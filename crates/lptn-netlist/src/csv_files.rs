@@ -6,12 +6,14 @@ use std::sync::Arc;
 
 use lptn_data::{CsvFile, CsvOptions, CsvText, Diagnostic, Files, Span};
 
-use crate::case::CASE;
 use crate::csv_form::options;
 use crate::format::{NetlistFormat, Role};
 use crate::include::Loader;
 use crate::near_file::NamedFile;
 use crate::raw::{RawKind, RawNetlist, RawValue};
+
+/// The section of load cases, whose signals may name files.
+pub(crate) const CASES: &str = "case";
 
 const NAMED: NamedFile = NamedFile {
     does: "read a CSV file",
@@ -50,7 +52,7 @@ impl CsvFiles {
     ) -> Self {
         let (mut named, mut matrices) = (Vec::new(), Vec::new());
         let curves = |key: &str| {
-            key == CASE.name || matches!(format.role(key), Some(Role::Value | Role::Substance))
+            key == CASES || matches!(format.role(key), Some(Role::Value | Role::Substance))
         };
         for entry in raw.top.entries.iter().filter(|entry| curves(&entry.key)) {
             if let RawKind::Table(table) = &entry.value.kind {

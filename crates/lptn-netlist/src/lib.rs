@@ -34,6 +34,7 @@ mod assumed;
 mod believe;
 mod case;
 mod controller;
+mod course_text;
 mod csv_files;
 mod csv_form;
 mod describe;

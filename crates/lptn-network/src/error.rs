@@ -6,7 +6,7 @@ use lptn_units::{EvalError, Type, format_short};
 use crate::error_words::{
     Say, above_zero, by, crossed, evaluation, face_area, in_unit, inside, joins_but, joins_cells,
     joins_sides, keys, most_offset, most_pairs, not_evaluated, not_positive, other_radii, radii,
-    stream_help, stream_rows, unused_name, usable, without_brackets,
+    stream_help, stream_rows, unused_name, usable, whole_law, whole_law_help, without_brackets,
 };
 use crate::id::{
     ConductorId, ControlId, Field, FluidId, GridId, Item, NodeId, SignalId, SourceId, StateId,
@@ -370,6 +370,9 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     StreamIntoFace { item: Item } = "network::stream_into_face", at Some((*item, Field::To)),
         says format!("the stream `{}` ends at a face, which is solid", say.name),
         help stream_help();
+    /// A path to a face of several cells whose law is one of a whole part.
+    WholeLaw { item: Item, end: Field, law: &'static str } = "network::whole_law",
+        at Some((*item, *end)), says whole_law(say, law), help whole_law_help();
     /// A path to a stream along a face from something that does not have its rows of cells.
     StreamRows { item: Item, stream: String, rows: usize } = "network::stream_rows",
         at Some((*item, Field::To)), says stream_rows(say, stream, *rows),

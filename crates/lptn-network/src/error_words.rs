@@ -288,6 +288,16 @@ pub(crate) fn stream_help() -> Option<String> {
     Some(help.to_owned())
 }
 
+/// A law of a whole part at the cells of a face.
+pub(crate) fn whole_law(say: &Say<'_>, law: &str) -> String {
+    format!("`{}` ends at a face, but the cells of a face cannot share a `{law}`", say.name)
+}
+
+pub(crate) fn whole_law_help() -> Option<String> {
+    let help = "join the face to a massless node by a [contact], and this path to that node";
+    Some(help.to_owned())
+}
+
 /// A path to a stream from something without its rows.
 pub(crate) fn stream_rows(say: &Say<'_>, stream: &str, rows: usize) -> String {
     format!(

@@ -94,7 +94,7 @@ fn law(builder: &NetworkBuilder, source: &Source, weight: f64) -> Result<Path, R
     let fields = formula.declaration().fields.iter().zip(source.law.values());
     let values: Result<Vec<Input>, ReduceError> = fields
         .map(|(field, value)| {
-            let factor = if field.key == scaled { weight } else { 1.0 };
+            let factor = if scaled.contains(&field.key) { weight } else { 1.0 };
             input(builder, value, field.ty, factor)
         })
         .collect();

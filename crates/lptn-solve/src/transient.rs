@@ -74,14 +74,19 @@ impl Transient {
         if !from.fits(system) {
             return Err(TransientError::Settings(SettingsError::State));
         }
-        let (mut care, mut grows) = (Care::Untried, 1.0);
+        let (mut care, mut grows, mut coarse) = (Care::Untried, 1.0, None);
         loop {
             let effort = Effort { care, grows };
-            if let Some(solution) = self.attempt(system, from, (effort, &mut *observer))? {
+            let attempt =
+                match (self.attempt(system, from, (effort, &mut *observer)), coarse.take()) {
+                    (Err(_), Some(solution)) => return closed(solution),
+                    (attempt, _) => attempt?,
+                };
+            if let Some(solution) = attempt {
                 if grows > 1.0 || !self.can_make_up_for(&solution) {
                     return closed(solution);
                 }
-                grows = solution.growth;
+                (grows, coarse) = (solution.growth, Some(solution));
                 continue;
             }
             if !self.sensitivities.is_empty() {

@@ -26,7 +26,6 @@ use lptn_network::{Network, RunSettings};
 use crate::netlist::Netlist;
 use crate::toml_text::{TomlFields, string};
 pub use proof::{WrittenError, prove};
-pub(crate) use values::course;
 
 /// A network that was derived from that of a netlist, with its title, run and folder.
 #[derive(Clone, Copy, Debug)]

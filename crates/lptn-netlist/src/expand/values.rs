@@ -3,21 +3,16 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use lptn_network::{
-    AfterEnd, Course, Evaluation, Item, Parameter, ParameterId, Signal, Value, ZERO_CELSIUS,
-};
+use lptn_network::{Evaluation, Item, Parameter, ParameterId, Value, ZERO_CELSIUS};
 use lptn_units::{
     Dimension, Interpolation, LookupTable, Outside, Spread, Table1, TableSymbol, Type,
     format_number,
 };
 
 use super::Writer;
+use crate::course_text::course;
 use crate::raw::{RawKind, RawTable, RawValue};
-use crate::toml_text::{
-    TomlFields, celsius, like, list, list_in, point, quantity, string, strings,
-};
-
-const TIME: Type = Type::of(Dimension::TIME);
+use crate::toml_text::{TomlFields, celsius, list, list_in, point, quantity, string, strings};
 
 /// The number after `±`, and the suffix after the unit.
 fn behind(spread: Spread) -> (String, String) {
@@ -224,35 +219,6 @@ fn joined(fields: &mut TomlFields, table: &Table1) {
     if table.outside() == Outside::Hold {
         fields.word("outside", "hold");
     }
-}
-
-pub(crate) fn course(signal: &Signal) -> String {
-    let (times, values, interpolation) = match &signal.course {
-        // alone, `K` would be a difference
-        Course::Expression(expression) => return like(expression, signal.ty),
-        Course::Steps { times, values, .. } => {
-            (times.as_slice(), values.as_slice(), Some("previous"))
-        }
-        Course::Curve { points, .. } => {
-            let pchip = points.interpolation() == Interpolation::Pchip;
-            (points.knots(), points.values(), pchip.then_some("pchip"))
-        }
-    };
-    let mut fields = TomlFields::default();
-    fields.list("t", list(times, TIME));
-    fields.list("v", list_in(values, signal.ty, signal.unit.as_ref()));
-    if let Some(interpolation) = interpolation {
-        fields.word("interp", interpolation);
-    }
-    match signal.course.after() {
-        AfterEnd::Error => {}
-        AfterEnd::Hold => fields.word("after_end", "hold"),
-        AfterEnd::Repeat(period) => {
-            fields.word("after_end", "repeat");
-            fields.put("period", quantity(period, TIME));
-        }
-    }
-    fields.inline()
 }
 
 /// True if two tables are the viscosity and the density of one lubricant.

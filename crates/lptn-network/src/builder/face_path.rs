@@ -6,7 +6,7 @@ use lptn_units::Dimension;
 use crate::builder::grid::{scaled, typed};
 use crate::builder::{NetworkBuilder, Path};
 use crate::error::BuildErrorKind;
-use crate::id::{End, FacePathId, GridId, Item, NodeId};
+use crate::id::{End, FacePathId, Field, GridId, Item, NodeId};
 use crate::law::Law;
 use crate::parts::grid::{FacePath, GridFace, Terminal};
 use crate::parts::overlap::{Joint, Placement};
@@ -49,6 +49,7 @@ impl NetworkBuilder {
         let (joint, end) = (Joint::CellByCell, first);
         let mut face_path = FacePath { name, kind, from, to, area, placement, joint, first, end };
         let problem = self.face_path_problem(&face_path, item, path.is_stream());
+        let problem = problem.or_else(|| self.whole_problem(&face_path, item, &path));
         let problem = problem.or_else(|| self.stream_problem(&face_path, item));
         let problem = problem.or_else(|| self.overlap(&mut face_path, item, &path).err());
         match problem {
@@ -121,6 +122,15 @@ impl NetworkBuilder {
                 self.surfaces(at.grid, at.face).into_iter().map(End::Node).collect()
             }
         }
+    }
+
+    /// Refuses a law of a whole part at a face of several cells.
+    fn whole_problem(&self, of: &FacePath, item: Item, path: &Path) -> Option<BuildErrorKind> {
+        let declared = path.formula().declaration();
+        let cells = |at: GridFace| self.parts.grids[at.grid.index()].face_count(at.face);
+        let many = declared.extent == Extent::Whole && of.faces().any(|at| cells(at) > 1);
+        let end = if matches!(of.from, Terminal::Face(_)) { Field::From } else { Field::To };
+        many.then_some(BuildErrorKind::WholeLaw { item, end, law: declared.name })
     }
 
     /// Why a path cannot end where it should.
@@ -206,7 +216,9 @@ impl Path {
             move |input: Input| Input { value: scaled(&input.value, factor), ..input }
         };
         match self.formula().declaration().extent {
-            Extent::Divided(key) => self.with(key, times(1.0 / count)),
+            Extent::Divided(keys) => {
+                keys.iter().fold(self, |path, key| path.with(key, times(1.0 / count)))
+            }
             Extent::Multiplied(key) => self.with(key, times(count)),
             Extent::Whole => self,
         }

@@ -225,11 +225,12 @@ impl NetworkBuilder {
 impl Path {
     /// A part of it, side by side with others, that is its product with these values.
     fn times(self, factors: Vec<Value>) -> Self {
-        let Extent::Divided(key) = self.formula().declaration().extent else { return self };
-        self.with(key, |input| {
+        let Extent::Divided(keys) = self.formula().declaration().extent else { return self };
+        let times = |input: Input| {
             let value = product([input.value].into_iter().chain(factors.clone()).collect());
             Input { value, ty: input.ty, deviation: input.deviation, lump: input.lump }
-        })
+        };
+        keys.iter().fold(self, |path, key| path.with(key, times))
     }
 }
 

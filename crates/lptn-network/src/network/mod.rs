@@ -3,6 +3,7 @@
 pub(crate) mod alike;
 pub(crate) mod axes;
 pub(crate) mod body;
+mod capacity;
 pub(crate) mod conductivity;
 pub(crate) mod control;
 pub(crate) mod fields;

@@ -2,13 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use lptn_units::Scalar;
-
-use crate::evaluation::{Evaluation, PASS};
-use crate::id::{CapacitorId, End, Field, Item, NodeId};
-use crate::input_error::{InputError, InputProblem};
-use crate::network::Network;
-use crate::network::flow::seeded;
+use crate::id::{CapacitorId, End, Item, NodeId};
 use crate::parts::Parts;
 use crate::value::Value;
 
@@ -22,9 +16,9 @@ pub struct StateCapacity {
     /// The nodes of the states that its capacity reads, ascending.
     pub states: Vec<NodeId>,
     /// The slots of these.
-    slots: Vec<u32>,
+    pub(crate) slots: Vec<u32>,
     /// The capacities in J/K that add up to it.
-    parts: Vec<(Item, Value)>,
+    pub(crate) parts: Vec<(Item, Value)>,
 }
 
 impl Parts {
@@ -79,101 +73,5 @@ fn node_of(end: End) -> Option<NodeId> {
     match end {
         End::Node(id) => Some(id),
         End::Boundary(_) => None,
-    }
-}
-
-impl Network {
-    /// The nodes whose capacity follows states, ascending.
-    pub fn state_capacities(&self) -> &[StateCapacity] {
-        &self.numbers.state_capacities
-    }
-
-    /// True if the capacity of a node changes during a run: with its temperature or with states.
-    pub fn capacity_varies(&self, node: NodeId) -> bool {
-        self.enthalpy(node).is_some() || self.capacity_of_states(node).is_some()
-    }
-
-    /// The capacity of a node, if it follows states.
-    pub fn capacity_of_states(&self, node: NodeId) -> Option<&StateCapacity> {
-        self.state_capacities().iter().find(|of| of.node == node)
-    }
-
-    /// The first node whose capacity changes during a run.
-    pub fn first_varying_capacity(&self) -> Option<NodeId> {
-        self.node_ids().find(|id| self.capacity_varies(*id))
-    }
-
-    /// The capacity in J/K at these temperatures of all nodes in K.
-    ///
-    /// # Errors
-    /// [`InputError`] if it has no value or is not positive.
-    pub fn capacity_at(
-        &self,
-        of: &StateCapacity,
-        scope: &mut Evaluation,
-        temperatures: &[f64],
-    ) -> Result<f64, InputError> {
-        for (slot, node) in of.slots.iter().zip(&of.states) {
-            scope.set(*slot, temperatures[node.index()]);
-        }
-        let mut sum = 0.0;
-        for (item, value) in &of.parts {
-            let capacity = value.at(scope);
-            sum += self.positive(capacity.map_err(InputProblem::from), *item, scope)?;
-        }
-        Ok(sum)
-    }
-
-    /// The same; also writes its derivatives in J/K^2 by the temperatures of the nodes of
-    /// [`StateCapacity::states`].
-    ///
-    /// # Errors
-    /// As [`Network::capacity_at`].
-    pub fn capacity_slopes(
-        &self,
-        of: &StateCapacity,
-        scope: &mut Evaluation,
-        temperatures: &[f64],
-        slopes: &mut Vec<f64>,
-    ) -> Result<f64, InputError> {
-        slopes.clear();
-        slopes.resize(of.states.len(), 0.0);
-        for first in (0..of.states.len()).step_by(PASS) {
-            for (item, value) in &of.parts {
-                let (slots, stack) = scope.dual();
-                for (k, (slot, node)) in of.slots.iter().zip(&of.states).enumerate() {
-                    slots[*slot as usize] = seeded(temperatures[node.index()], k, first);
-                }
-                let dual = value.on(slots, stack).map_err(InputProblem::from);
-                let dual = match dual {
-                    Ok(dual) => {
-                        self.positive(Ok(dual.value()), *item, scope)?;
-                        dual
-                    }
-                    Err(problem) => {
-                        return Err(self.failed(*item, (Field::Capacity, problem), scope));
-                    }
-                };
-                let pass = slopes[first..].iter_mut().zip(dual.derivatives);
-                pass.for_each(|(slope, own)| *slope += own);
-            }
-        }
-        self.capacity_at(of, scope, temperatures)
-    }
-
-    /// A capacity, or the reason why it is none.
-    fn positive(
-        &self,
-        capacity: Result<f64, InputProblem>,
-        item: Item,
-        scope: &Evaluation,
-    ) -> Result<f64, InputError> {
-        let problem = match capacity {
-            Ok(value) if !value.is_finite() => InputProblem::NotFinite(value),
-            Ok(value) if value <= 0.0 => InputProblem::NoCapacity(value),
-            Ok(value) => return Ok(value),
-            Err(problem) => problem,
-        };
-        Err(self.failed(item, (Field::Capacity, problem), scope))
     }
 }
