@@ -7,8 +7,8 @@ use crate::system::ThermalSystem;
 use crate::workspace::Workspace;
 
 impl ThermalSystem {
-    /// Heat content in J over the temperature of the start of each of
-    /// [`Network::state_capacities`], at the temperatures `y` of the states in K.
+    /// Heat content in J over the temperature of the start, at the temperatures `y` of the states in
+    /// K, of each of [`Network::state_capacities`](lptn_network::Network::state_capacities).
     ///
     /// # Errors
     /// [`InputError`] if a capacity has no value.
@@ -22,9 +22,9 @@ impl ThermalSystem {
         self.scaled.iter().map(one).collect()
     }
 
-    /// Writes the heat in W, over the temperature of the start, that comes into each of
-    /// [`Network::state_capacities`] with its mass, from the sources last evaluated: the change of
-    /// its capacity times its rise.
+    /// Writes the heat in W, over the temperature of the start, that comes with its mass into each of
+    /// [`Network::state_capacities`](lptn_network::Network::state_capacities): the change of its
+    /// capacity times its rise. From the sources last evaluated.
     ///
     /// # Errors
     /// As [`ThermalSystem::contents`].

@@ -231,3 +231,10 @@ fn a_capacity_that_ends_stops_the_run_with_its_name() {
     let words = error.to_string();
     assert!(words.contains("water") && words.contains("not positive"), "{words}");
 }
+
+#[test]
+fn a_capacity_that_jumps_is_refused() {
+    let jumps = TANK.replace("\"m * cp\"", "\"if(m > 60 [kg], m, 2 * m) * cp\"");
+    let rejected = lptn_netlist::parse("net.toml", &jumps).map(drop).unwrap_err();
+    assert!(rejected.to_string().contains("network::comparison_not_linear"), "{rejected}");
+}

@@ -185,6 +185,11 @@ impl Work<'_> {
             self.error(item, BuildErrorKind::DependsOnTime { item, field });
             return f64::NAN;
         }
+        // a jump of a capacity would need the heat of the mass at its moment
+        if value.programs().iter().any(|program| !program.comparisons().is_empty()) {
+            self.error(item, BuildErrorKind::ComparisonNotLinear { item, field });
+            return f64::NAN;
+        }
         for end in reads.temperatures {
             if let End::Node(id) = end {
                 self.scope.set(self.parts.layout.temperature(end), initial[id.index()]);
