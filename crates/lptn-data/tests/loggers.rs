@@ -120,7 +120,7 @@ const RING: [f64; 4] = [24.9, 25.3, 26.0, 26.9];
 const LID_WITH_GAP: [f64; 4] = [25.1, -1.0, 25.2, 25.3];
 
 /// Two headers, units in `Y_Unit_Label` of the second, `X_Value` in the seconds of `X_Dimension`, a
-/// comment in the first row only, a decimal comma that the header states: 1,234 V is no thousand.
+/// comment in the first row only, a decimal comma that the header states: 1,234 V is not a thousand.
 /// National Instruments, Specification for the LabVIEW Measurement File (.lvm).
 #[test]
 fn lvm_of_labview() {

@@ -151,7 +151,7 @@ fn errors_that_grow_are_made_up_for_by_smaller_steps() {
     assert!(solution.error_is_bounded());
     let text = "5 [W] + 6 [W/K] * (T - 20 [degC])";
     let solution = takes(&heated(text), alone(|t| 5.0 + 6.0 * (t - 20.0)), [225, 464, 0, 232]);
-    assert!(!solution.error_is_bounded() || solution.growth() > 300.0);
+    assert!(solution.growth() > 300.0, "{}", solution.growth());
 }
 
 /// A kink that is met makes the integrator begin anew, one that nothing passes does not.

@@ -65,40 +65,35 @@ impl Network {
     ) -> Result<f64, InputError> {
         slopes.clear();
         slopes.resize(of.states.len(), 0.0);
+        let mut sum = 0.0;
         for first in (0..of.states.len()).step_by(PASS) {
+            sum = 0.0;
             for (item, value) in &of.parts {
                 let (slots, stack) = scope.dual();
                 for (k, (slot, node)) in of.slots.iter().zip(&of.states).enumerate() {
                     slots[*slot as usize] = seeded(temperatures[node.index()], k, first);
                 }
-                let dual = value.on(slots, stack).map_err(InputProblem::from);
-                let dual = match dual {
-                    Ok(dual) => {
-                        self.positive(Ok(dual.value()), *item, scope)?;
-                        dual
-                    }
-                    Err(problem) => {
-                        return Err(self.failed(*item, (Field::Capacity, problem), scope));
-                    }
-                };
-                let pass = slopes[first..].iter_mut().zip(dual.derivatives);
+                let capacity = value.on(slots, stack).map_err(InputProblem::from);
+                let capacity = self.positive(capacity, *item, scope)?;
+                sum += capacity.value();
+                let pass = slopes[first..].iter_mut().zip(capacity.derivatives);
                 pass.for_each(|(slope, own)| *slope += own);
             }
         }
-        self.capacity_at(of, scope, temperatures)
+        Ok(sum)
     }
 
     /// A capacity, or the reason why it is none.
-    fn positive(
+    fn positive<S: Scalar>(
         &self,
-        capacity: Result<f64, InputProblem>,
+        capacity: Result<S, InputProblem>,
         item: Item,
         scope: &Evaluation,
-    ) -> Result<f64, InputError> {
+    ) -> Result<S, InputError> {
         let problem = match capacity {
-            Ok(value) if !value.is_finite() => InputProblem::NotFinite(value),
-            Ok(value) if value <= 0.0 => InputProblem::NoCapacity(value),
-            Ok(value) => return Ok(value),
+            Ok(found) if !found.is_finite() => InputProblem::NotFinite(found.value()),
+            Ok(found) if found.value() <= 0.0 => InputProblem::NoCapacity(found.value()),
+            Ok(found) => return Ok(found),
             Err(problem) => problem,
         };
         Err(self.failed(item, (Field::Capacity, problem), scope))
