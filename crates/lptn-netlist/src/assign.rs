@@ -365,6 +365,7 @@ impl Netlist {
                 let grid = |at: GridFace| network.grids()[at.grid.index()].shape.values();
                 joint.area.iter().chain(joint.faces().flat_map(grid)).collect()
             }
+            Item::Patch(patch) => network.grids()[patch.at.grid.index()].values_of_patch(patch),
             Item::Report(id) => vec![&network.reports()[id.index()].value],
             Item::Parameter(_) | Item::Table(_) | Item::Value(_) => Vec::new(),
         }

@@ -28,6 +28,7 @@ impl Names {
         match (part, ending) {
             (GridPart::Whole(_), ending) => result && VALUES.contains(&ending),
             (GridPart::Cell, "T") => wanted.names_nodes(),
+            (GridPart::Patch(_), "T") => result,
             (GridPart::Face(at), "T") => result || (wanted.names_nodes() && self.is_one_node(at)),
             (GridPart::Surface(at), "T") => wanted.names_nodes() && self.is_attached(at),
             _ => false,
@@ -66,10 +67,13 @@ impl Names {
             Diagnostic::error("netlist::unknown_name", format!("{words} uses `{name}`: {why}"))
                 .at(at.clone(), "unknown name")
         };
-        let value = VALUES.contains(&ending) || matches!(part, GridPart::Face(_));
+        let value =
+            VALUES.contains(&ending) || matches!(part, GridPart::Face(_) | GridPart::Patch(_));
         Some(match part {
             GridPart::Nothing(why, help) => unknown(why).help(help),
-            GridPart::Face(_) | GridPart::Whole(_) if value && wanted.names_nodes() => {
+            GridPart::Face(_) | GridPart::Patch(_) | GridPart::Whole(_)
+                if value && wanted.names_nodes() =>
+            {
                 let message = format!("{words} cannot use `{name}`, which is a result");
                 Diagnostic::wrong(
                     "netlist::temperature_not_here",

@@ -1,7 +1,7 @@
 //! Names inside grids: `wall[1,2,3]`, `wall.x1`, `wall.x1[2,3]`.
 
 use lptn_data::Span;
-use lptn_network::{Face, Form, GridFace, GridId};
+use lptn_network::{Face, Form, GridFace, GridId, GridPatch};
 
 /// The data of a grid that names need.
 #[derive(Clone, Debug)]
@@ -15,6 +15,8 @@ pub(crate) struct KnownGrid {
     pub(crate) span: Span,
     /// The faces that something is attached to.
     pub(crate) attached: Vec<Face>,
+    /// Rectangles and circles of its faces, by name.
+    pub(crate) patches: Vec<(String, GridPatch)>,
 }
 
 /// The meaning of a name that begins with the name of a grid.
@@ -26,6 +28,8 @@ pub(crate) enum GridPart {
     Cell,
     /// A face.
     Face(GridFace),
+    /// A rectangle or circle of a face.
+    Patch(GridPatch),
     /// One cell of a face.
     Surface(GridFace),
     /// Nothing, with the reason and the help.
@@ -47,6 +51,11 @@ impl KnownGrid {
             None => (rest, ""),
         };
         let word = face.trim_start_matches('.');
+        if let Some((_, patch)) =
+            self.patches.iter().find(|(own, _)| rest.strip_prefix('.') == Some(own))
+        {
+            return GridPart::Patch(*patch);
+        }
         let Some(face) = self.form.face_named(word).filter(|_| face.starts_with('.')) else {
             let why = format!("grid `{name}` has no face `{}`", rest.trim_start_matches('.'));
             return GridPart::Nothing(why, self.faces(name, word));
@@ -82,7 +91,12 @@ impl KnownGrid {
         }
         let face = |face| format!("`{name}.{}`", self.form.face_name(face));
         let all: Vec<String> = self.form.faces().map(face).collect();
-        format!("its faces are {}", all.join(", "))
+        let own = self.patches.iter().map(|(own, _)| format!("`{name}.{own}`"));
+        let own: Vec<String> = own.collect();
+        match own.is_empty() {
+            true => format!("its faces are {}", all.join(", ")),
+            false => format!("its faces are {}, its patches {}", all.join(", "), own.join(", ")),
+        }
     }
 
     /// The reason why a cylinder lacks a face that others have.

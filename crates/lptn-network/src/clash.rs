@@ -72,6 +72,7 @@ fn result_of(parts: &Parts, name: &str) -> Option<Item> {
         return Some(Item::Grid(match value {
             GridValue::Mean(id) | GridValue::Min(id) | GridValue::Max(id) => id,
             GridValue::Face(GridFace { grid, .. }) => grid,
+            GridValue::Patch(patch) => patch.at.grid,
         }));
     }
     let item = parts.item(base)?;

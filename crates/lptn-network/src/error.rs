@@ -13,6 +13,8 @@ use crate::id::{
 };
 use crate::names::list_of_names;
 use crate::parts::grid::{GridFace, MOST_CELLS};
+use crate::parts::patch::{GridPatch, PatchProblem};
+use crate::patch_words::{not_on_face, other_patch, patch_field};
 
 /// Help that needs no more than the words.
 #[allow(clippy::unnecessary_wraps, reason = "in the form of all helps")]
@@ -409,12 +411,15 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     FacesMoving { item: Item, faces: [GridFace; 2], names: [String; 2] } = "network::faces_moving",
         at Some((*item, Field::To)),
         says joins_but(say, names, "which parameters move"), help Some(most_pairs());
+    /// A patch that does not lie on its face, or on other cells than those of the file.
+    Patch { patch: GridPatch, problem: PatchProblem, axes: [&'static str; 2] } = "network::patch",
+        at Some((Item::Patch(*patch), patch_field(problem))), says not_on_face(say, problem, axes),
+        help Some(other_patch(problem, axes));
     /// A path whose area is not that of the face it ends at, in m^2.
     FaceArea { item: Item, given: f64, face: GridFace, name: String, area: f64 } =
         "network::face_area",
         at Field::of_law("area").map(|field| (*item, field)),
         says face_area(say, *given, (name, *area)),
-        help text("leave `area` out: it is that of the face; convection on a part of it is given \
-            by `G` or `R`");
+        help text("leave `area` out: it is that of the face; a part of a face is a `patch` of the grid");
 }
 }

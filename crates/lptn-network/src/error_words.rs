@@ -127,7 +127,7 @@ pub(crate) fn in_unit(value: f64, field: Field) -> String {
         Field::Density => Dimension::DENSITY,
         Field::SpecificHeat => Dimension::SPECIFIC_HEAT,
         Field::Conductivity | Field::AxialConductivity => Dimension::CONDUCTIVITY,
-        Field::Size | Field::CharacteristicLength => Dimension::LENGTH,
+        Field::Size | Field::CharacteristicLength | Field::Radius => Dimension::LENGTH,
         Field::Law(law) if !law.ty.absolute && !law.ty.is_scalar() => {
             let (unit, scale) = law.unit();
             return format!("{} {unit}", format_short(value / scale));
@@ -164,6 +164,7 @@ pub(crate) fn not_positive(field: Field, value: f64) -> &'static str {
         | Field::SpecificHeat
         | Field::AxialConductivity
         | Field::Conductivity => "a body has a mass, a volume and properties of more than zero",
+        Field::Radius => "a circle has a radius of more than zero",
         Field::Size | Field::CharacteristicLength => "a body has dimensions of more than zero",
         Field::Fill => "a winding has a conductor: its share is above 0",
         Field::Sector => "leave `angle` out for the full circle, or give one above 0 deg",

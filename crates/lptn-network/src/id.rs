@@ -2,6 +2,8 @@
 
 use lptn_laws::Formula;
 
+use crate::parts::patch::GridPatch;
+
 macro_rules! ids {
     ($($(#[$doc:meta])* $name:ident;)*) => {$(
         $(#[$doc])*
@@ -118,6 +120,8 @@ pub enum Item {
     Grid(GridId),
     /// A path that ends at a face of a grid.
     FacePath(FacePathId),
+    /// A rectangle or circle of a face of a grid.
+    Patch(GridPatch),
     /// A state of one's own.
     State(StateId),
     /// A named value.
@@ -151,6 +155,7 @@ impl Item {
             Self::Report(_) => "report",
             Self::Control(_) => "control",
             Self::Grid(_) => "grid",
+            Self::Patch(_) => "patch",
             Self::State(_) => "state",
             Self::Value(_) => "value",
         }
@@ -248,6 +253,10 @@ pub enum Field {
     PipeContent,
     /// Place of a face on another one.
     Offset,
+    /// Middle of a patch of a face.
+    Centre,
+    /// Radius of a circle.
+    Radius,
 }
 
 /// A field of a law; those of one key are one field, whatever the law.
@@ -361,6 +370,8 @@ impl Field {
             Self::UsualSize => "size",
             Self::PipeContent => "content",
             Self::Offset => "offset",
+            Self::Centre => "centre",
+            Self::Radius => "radius",
         }
     }
 }

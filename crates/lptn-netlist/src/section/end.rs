@@ -25,6 +25,11 @@ impl<'a> Elaboration<'a> {
         if let Some(id) = full.as_deref().and_then(|name| self.names.streams.get(name)) {
             return Some((Terminal::Stream(*id), raw));
         }
+        if let Some((_, GridPart::Patch(patch))) =
+            full.as_deref().and_then(|n| self.part_of_grid(n))
+        {
+            return Some((patch.into(), raw));
+        }
         match self.face_at(&raw.span, name) {
             Some(at) => Some((at.into(), raw)),
             _ => self.named_end(fields, key, (name, raw)).map(|(end, raw)| (end.into(), raw)),
@@ -38,7 +43,12 @@ impl<'a> Elaboration<'a> {
         ends: [&Option<(Terminal, &RawValue)>; 2],
         placement: &Placement<Input>,
     ) -> Option<Input> {
+        let patch = ends.into_iter().flatten().find_map(|(terminal, _)| match terminal {
+            Terminal::Patch(patch) => Some(*patch),
+            _ => None,
+        });
         let area = match faces(ends)[..] {
+            _ if let Some(patch) = patch => self.builder.patch_area(patch),
             [a, b] => {
                 let area = self.builder.common_area([a, b], placement);
                 area.or_else(|| self.builder.face_area(a))
@@ -119,7 +129,7 @@ impl<'a> Elaboration<'a> {
                     self.names.grids.get(grid).map_or("x1", KnownGrid::sample_face)
                 ),
             ),
-            GridPart::Face(_) => (
+            GridPart::Face(_) | GridPart::Patch(_) => (
                 "netlist::not_a_node",
                 format!("{} names a face of a grid", fields.owner.field(key)),
                 "name one cell by its indices".to_owned(),
@@ -284,7 +294,7 @@ impl<'a> Elaboration<'a> {
 pub(crate) fn faces(ends: [&Option<(Terminal, &RawValue)>; 2]) -> Vec<GridFace> {
     let face = |(terminal, _): &(Terminal, &RawValue)| match terminal {
         Terminal::Face(at) => Some(*at),
-        Terminal::End(_) | Terminal::Stream(_) => None,
+        Terminal::End(_) | Terminal::Stream(_) | Terminal::Patch(_) => None,
     };
     ends.into_iter().flatten().filter_map(face).collect()
 }

@@ -15,6 +15,7 @@ use crate::section::direction::AXIS_OF;
 use crate::section::grid_shape::{Made, SHAPES};
 use crate::section::keys::{CP, DENSITY, MATERIAL_OF};
 use crate::section::node::START;
+use crate::section::patch::PATCHES;
 use crate::section::path_section::PATHS;
 use crate::work::{Elaboration, stand_in};
 
@@ -61,6 +62,7 @@ pub(crate) const GRID: SectionDeclaration = SectionDeclaration {
         DENSITY,
         CP,
         START,
+        PATCHES,
     ],
     either: &[&["material", "k"], &["size", "shape"], &["size", "r_out"], &["size", "length"]],
     example: "{ size = [\"0.5 m\", \"0.5 m\", \"20 mm\"], cells = [20, 20, 4], material = \
@@ -79,6 +81,7 @@ pub(crate) const GRID: SectionDeclaration = SectionDeclaration {
         ("radius", "the outer radius of a cylinder is `r_out`"),
         ("R", "the outer radius of a cylinder is `r_out`"),
         ("height", "the length of a cylinder along its axis is `length`"),
+        ("patches", "rectangles and circles of its faces are in `patch`"),
     ],
     ..SectionDeclaration::NEW
 };
@@ -134,10 +137,10 @@ impl<'a> Elaboration<'a> {
         };
         for name in names {
             let Some(full) = self.names.structure.inside(&raw.span, name) else { continue };
-            let Some((own, GridPart::Face(at) | GridPart::Surface(at))) =
-                self.names.grid_part(&full)
-            else {
-                continue;
+            let (own, at) = match self.names.grid_part(&full) {
+                Some((own, GridPart::Face(at) | GridPart::Surface(at))) => (own, at),
+                Some((own, GridPart::Patch(patch))) => (own, patch.at),
+                _ => continue,
             };
             let before = self.builder.sizes();
             self.builder.surfaces(at.grid, at.face);
@@ -173,6 +176,7 @@ impl<'a> Elaboration<'a> {
         let initial = own.or_else(|| default.map(|(input, _)| input.clone()));
         let initial =
             initial.or_else(|| (!fields.complete).then(|| stand_in(Type::ABSOLUTE_TEMPERATURE)));
+        let patches = self.patch_entries(&fields);
         let (made, cells) = (made?, cells?);
         let before = self.builder.sizes();
         let id = self.builder.grid(&entry.key, lengths?.body(cells.clone(), made, initial));
@@ -185,13 +189,13 @@ impl<'a> Elaboration<'a> {
             self.map.value(item, Field::Initial, raw);
         }
         self.know_grid(entry, id, cells);
-        Some(())
+        self.patches(&entry.key, id, patches?)
     }
 
     fn know_grid(&mut self, entry: &RawEntry, id: GridId, cells: Vec<usize>) {
         let form = self.builder.form(id).unwrap_or(Form::Block);
         let span = entry.key_span.clone();
-        let known = KnownGrid { id, form, cells, span, attached: Vec::new() };
+        let known = KnownGrid { id, form, cells, span, attached: Vec::new(), patches: Vec::new() };
         self.names.grids.entry(entry.key.clone()).or_insert(known);
     }
 

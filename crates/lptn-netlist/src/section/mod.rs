@@ -21,6 +21,7 @@ mod material;
 mod matrix;
 mod named_value;
 mod node;
+mod patch;
 mod path;
 mod path_law;
 mod path_section;

@@ -87,7 +87,11 @@ impl<'a> Elaboration<'a> {
     }
 
     /// The values of a list of two.
-    fn two(&mut self, fields: &Fields<'a>, (key, what): (&str, &str)) -> Option<[&'a RawValue; 2]> {
+    pub(super) fn two(
+        &mut self,
+        fields: &Fields<'a>,
+        (key, what): (&str, &str),
+    ) -> Option<[&'a RawValue; 2]> {
         match self.list(fields, (key, what))? {
             [a, b] => Some([a, b]),
             list => {

@@ -77,6 +77,7 @@ impl<'a> Elaboration<'a> {
         let shares = match self.part_of_grid_at(place, name)? {
             GridPart::Whole(id) => self.builder.shares_of_volume(id),
             GridPart::Face(at) => self.builder.shares_of_face(at),
+            GridPart::Patch(patch) => self.builder.shares_of_patch(patch),
             _ => return None,
         };
         Some(shares.into_iter().map(|(node, share)| (node.into(), share)).collect())

@@ -10,6 +10,7 @@ use crate::id::{End, FacePathId, Field, GridId, Item, NodeId};
 use crate::law::Law;
 use crate::parts::grid::{FacePath, GridFace, Terminal};
 use crate::parts::overlap::{Joint, Placement};
+use crate::parts::patch::GridPatch;
 use crate::parts::shape::Form;
 use crate::value::{Input, Value};
 
@@ -76,10 +77,10 @@ impl NetworkBuilder {
             self.register(&face_path.name, item);
         }
         if !indices.is_empty() {
-            let parts = named.map_or_else(Vec::new, |at| self.parts_of(at));
             let mut last: Option<(f64, Law)> = None;
-            for (ends, (index, parts)) in from.into_iter().zip(to).zip(indices.iter().zip(parts)) {
-                let name = format!("{}{index}", face_path.name);
+            for (cell, parts) in self.joined_cells(&face_path) {
+                let (name, ends) =
+                    (format!("{}{}", face_path.name, indices[cell]), (from[cell], to[cell]));
                 let same = last.take().filter(|(of, _)| of.to_bits() == parts.to_bits());
                 let law = same.map(|(_, law)| law).unwrap_or_else(|| {
                     self.shared_law(&face_path.name, path.clone().shared(parts))
@@ -94,6 +95,17 @@ impl NetworkBuilder {
         }
         self.parts.face_paths.push(face_path);
         item
+    }
+
+    /// The cells of the face that a path ends at, or of its patch, with the number of parts of the
+    /// path, if all were as large as that of the cell.
+    fn joined_cells(&self, face_path: &FacePath) -> Vec<(usize, f64)> {
+        if let Some(patch) = face_path.patch() {
+            let shares = self.shares(patch).into_iter();
+            return shares.map(|(cell, share)| (cell as usize, share.recip())).collect();
+        }
+        let parts = face_path.faces().next().map_or_else(Vec::new, |at| self.parts_of(at));
+        parts.into_iter().enumerate().collect()
     }
 
     /// The indices of the cells of a face, as they end names.
@@ -118,7 +130,7 @@ impl NetworkBuilder {
                 ]
             }
             Terminal::Stream(id) => named.map_or_else(Vec::new, |at| self.rows_of(id, at)),
-            Terminal::Face(at) => {
+            Terminal::Patch(GridPatch { at, .. }) | Terminal::Face(at) => {
                 self.surfaces(at.grid, at.face).into_iter().map(End::Node).collect()
             }
         }
@@ -153,6 +165,10 @@ impl NetworkBuilder {
             return Some(BuildErrorKind::NoFace { item, face, name });
         }
         let [a, b] = faces[..] else { return None };
+        if face_path.patch().is_some() {
+            let names = [face_path.from, face_path.to].map(|end| self.parts.terminal_name(end));
+            return Some(BuildErrorKind::FaceShapes { item, faces: [a, b], names });
+        }
         let kind = |at: GridFace| match grid(at).form() {
             Form::Block => None,
             Form::Cylinder { .. } => Some(at.face.axis()),

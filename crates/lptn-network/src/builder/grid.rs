@@ -149,6 +149,7 @@ impl NetworkBuilder {
             first,
             paths,
             surfaces,
+            patches: Vec::new(),
         };
         let errors = self.errors.len();
         self.register(&grid.name, item);

@@ -8,6 +8,7 @@ mod grid_path;
 mod joint;
 pub(crate) mod lookup;
 pub(crate) mod numbered;
+mod patch;
 mod pipe;
 mod register;
 pub(crate) mod result;

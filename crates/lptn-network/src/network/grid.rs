@@ -2,6 +2,7 @@
 
 use crate::id::{ConductorId, FacePathId, Item, NodeId};
 use crate::network::Network;
+use crate::parts::Parts;
 use crate::parts::grid::{Face, Terminal};
 use crate::parts::grid_value::GridValue;
 use crate::parts::overlap::{Joint, Overlap};
@@ -64,11 +65,7 @@ impl Network {
 impl Network {
     /// The name of the end of a path.
     pub fn terminal_name(&self, terminal: Terminal) -> String {
-        match terminal {
-            Terminal::End(end) => self.name_of(end.into()).into_owned(),
-            Terminal::Face(at) => self.grids()[at.grid.index()].face_name(at.face),
-            Terminal::Stream(id) => self.parts.face_streams[id.index()].name.clone(),
-        }
+        self.parts.terminal_name(terminal)
     }
 
     /// The name of a node, for a cell that of its grid and for a surface that of its face.
@@ -96,6 +93,17 @@ impl Network {
     /// ordinary conductors.
     pub fn shared_face_paths(&self) -> impl Iterator<Item = FacePathId> + '_ {
         self.parts.shared_face_paths()
+    }
+}
+
+impl Parts {
+    pub(crate) fn terminal_name(&self, terminal: Terminal) -> String {
+        match terminal {
+            Terminal::End(end) => self.name_of(end.into()).into_owned(),
+            Terminal::Face(at) => self.face_name(at),
+            Terminal::Patch(patch) => self.name_of(Item::Patch(patch)).into_owned(),
+            Terminal::Stream(id) => self.face_streams[id.index()].name.clone(),
+        }
     }
 }
 

@@ -32,7 +32,7 @@ pub(crate) fn ring_radii(parts: &Parts, shape: &Shape) -> Option<[f64; 2]> {
 }
 
 /// An evaluation of these values by the parameters as they are written.
-fn as_written(parts: &Parts, values: &[&Value]) -> Evaluation {
+pub(super) fn as_written(parts: &Parts, values: &[&Value]) -> Evaluation {
     let scope = Evaluation::new(&parts.layout, &[]);
     let mut work = Work { parts, scope, errors: Vec::new() };
     if values.iter().any(|value| !matches!(value, Value::Constant(_))) {
@@ -108,9 +108,15 @@ impl Work<'_> {
         let (Some(area), Some(face)) = (constant, face_path.faces().next()) else { return };
         let given = area.at(&mut self.scope).unwrap_or(f64::NAN);
         let names: Vec<String> = face_path.faces().map(|at| parts.face_name(at)).collect();
+        let whole = self.sides(face).into_iter().product::<f64>();
         let (name, area) = match common {
+            _ if let Some(patch) = face_path.patch() => {
+                let grid = &parts.grids[face.grid.index()];
+                let portion = grid.patch(patch).parts.portion;
+                (format!("the patch `{}`", grid.patch_name(patch)), portion * whole)
+            }
             Some(area) => (format!("the overlap of `{}`", names.join("` and `")), area),
-            None => (format!("the face `{}`", names[0]), self.sides(face).into_iter().product()),
+            None => (format!("the face `{}`", names[0]), whole),
         };
         if differ(given, area) {
             self.error(item, BuildErrorKind::FaceArea { item, given, face, name, area });

@@ -4,6 +4,7 @@ pub(crate) mod conductance;
 pub(crate) mod content;
 pub(crate) mod control;
 pub(crate) mod grid;
+pub(crate) mod patch;
 pub(crate) mod pipe;
 pub(crate) mod state;
 pub(crate) mod substance;
@@ -70,6 +71,7 @@ impl Numbers {
         work.check_materials();
         work.check_fluids();
         work.check_grids();
+        work.check_patches();
         work.check_lumps();
         if !work.errors.is_empty() {
             whole::collapse(parts, &mut work.errors);

@@ -13,6 +13,7 @@ use lptn_laws::Kind;
 use crate::id::{BoundaryId, ConductorId, End, FaceStreamId, GridId, Item, MaterialId, NodeId};
 pub use crate::parts::face::Face;
 use crate::parts::overlap::{Joint, Placement};
+use crate::parts::patch::{GridPatch, Patch};
 use crate::parts::rings::Rings;
 use crate::parts::shape::{Form, Shape};
 use crate::value::Value;
@@ -46,6 +47,8 @@ pub struct Grid {
     pub(crate) paths: [Option<u32>; 3],
     /// The first surface node of each face that something is attached to.
     pub(crate) surfaces: [Option<u32>; 6],
+    /// Rectangles and circles of its faces.
+    pub patches: Vec<Patch>,
 }
 
 /// Indices as names end with them: `[1,2]`, nothing without any.
@@ -177,6 +180,8 @@ pub enum Terminal {
     End(End),
     /// A face of a grid.
     Face(GridFace),
+    /// A rectangle or circle of a face.
+    Patch(GridPatch),
     /// A stream along a face: the fluid of each row of cells.
     Stream(FaceStreamId),
 }
@@ -205,7 +210,14 @@ impl From<GridFace> for Terminal {
     }
 }
 
-/// A path that ends at a face: one conductor for each cell, which share its conductance or area.
+impl From<GridPatch> for Terminal {
+    fn from(patch: GridPatch) -> Self {
+        Self::Patch(patch)
+    }
+}
+
+/// A path that ends at a face or a patch of one: one conductor for each cell, which share its
+/// conductance or area.
 #[derive(Clone, Debug)]
 pub struct FacePath {
     /// Its name, unique among nodes, boundaries and elements.
@@ -240,10 +252,19 @@ impl FacePath {
         matches!(self.joint, Joint::Moving(_))
     }
 
-    /// The faces it ends at: one or two.
+    /// The patch it ends at.
+    pub fn patch(&self) -> Option<GridPatch> {
+        [self.from, self.to].into_iter().find_map(|terminal| match terminal {
+            Terminal::Patch(patch) => Some(patch),
+            _ => None,
+        })
+    }
+
+    /// The faces it ends at, or on which its patch lies: one or two.
     pub fn faces(&self) -> impl Iterator<Item = GridFace> + use<> {
         [self.from, self.to].into_iter().filter_map(|terminal| match terminal {
             Terminal::Face(face) => Some(face),
+            Terminal::Patch(patch) => Some(patch.at),
             Terminal::End(_) | Terminal::Stream(_) => None,
         })
     }

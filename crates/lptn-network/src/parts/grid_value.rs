@@ -1,7 +1,9 @@
 //! Temperatures of a grid in the results: means and extremes of its cells, means of its faces.
 
 use crate::id::GridId;
+use crate::parts::face::Face;
 use crate::parts::grid::{Grid, GridFace};
+use crate::parts::patch::GridPatch;
 
 /// A temperature of a grid as a whole, in K.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -15,6 +17,8 @@ pub enum GridValue {
     /// `NAME.x1.T`: the mean over a face, of its surface if something is attached to it, else of
     /// the cells next to it.
     Face(GridFace),
+    /// `NAME.chip.T`: the mean over a patch, of the same nodes.
+    Patch(GridPatch),
 }
 
 impl GridValue {
@@ -25,6 +29,7 @@ impl GridValue {
             Self::Min(_) => format!("{}.min", grid.name),
             Self::Max(_) => format!("{}.max", grid.name),
             Self::Face(at) => format!("{}.T", grid.face_name(at.face)),
+            Self::Patch(patch) => format!("{}.T", grid.patch_name(patch)),
         }
     }
 
@@ -33,6 +38,7 @@ impl GridValue {
         match self {
             Self::Mean(id) | Self::Min(id) | Self::Max(id) => id,
             Self::Face(at) => at.grid,
+            Self::Patch(patch) => patch.at.grid,
         }
     }
 
@@ -41,10 +47,12 @@ impl GridValue {
     pub(crate) fn of(self, (members, weights): (&[u32], &[f64]), nodes: &[f64]) -> f64 {
         let all = members.iter().map(|&node| nodes[node as usize]);
         match self {
-            Self::Mean(_) | Self::Face(_) if !weights.is_empty() => {
+            Self::Mean(_) | Self::Face(_) | Self::Patch(_) if !weights.is_empty() => {
                 all.zip(weights).map(|(kelvin, weight)| kelvin * weight).sum()
             }
-            Self::Mean(_) | Self::Face(_) => all.sum::<f64>() / members.len() as f64,
+            Self::Mean(_) | Self::Face(_) | Self::Patch(_) => {
+                all.sum::<f64>() / members.len() as f64
+            }
             Self::Min(_) => all.reduce(f64::min).unwrap_or(f64::NAN),
             Self::Max(_) => all.reduce(f64::max).unwrap_or(f64::NAN),
         }
@@ -55,13 +63,21 @@ impl Grid {
     /// The nodes that a value is made of.
     pub(crate) fn members(&self, value: GridValue) -> Vec<u32> {
         match value {
-            GridValue::Face(at) if self.surfaces[at.face as usize].is_some() => {
-                self.surfaces(at.face).map(|id| id.0).collect()
-            }
-            GridValue::Face(at) => {
-                self.face_places(at.face).map(|place| self.first + self.offset(place)).collect()
+            GridValue::Face(at) => self.face_members(at.face),
+            GridValue::Patch(patch) => {
+                let face = self.face_members(patch.at.face);
+                let shares = self.patch(patch).parts.shares.iter();
+                shares.map(|(cell, _)| face[*cell as usize]).collect()
             }
             _ => self.nodes().map(|id| id.0).collect(),
+        }
+    }
+
+    /// The surfaces of a face, or its cells if nothing is attached to it.
+    fn face_members(&self, face: Face) -> Vec<u32> {
+        match self.surfaces[face as usize] {
+            Some(_) => self.surfaces(face).map(|id| id.0).collect(),
+            None => self.face_places(face).map(|place| self.first + self.offset(place)).collect(),
         }
     }
 
@@ -69,10 +85,14 @@ impl Grid {
     pub(crate) fn weights(&self, value: GridValue) -> Vec<f64> {
         let alike = match value {
             GridValue::Face(at) => self.rings.is_none() || at.face.axis() == 0,
+            GridValue::Patch(_) => false,
             _ => self.rings.is_none(),
         };
         match value {
             _ if alike => Vec::new(),
+            GridValue::Patch(patch) => {
+                self.patch(patch).parts.shares.iter().map(|(_, share)| *share).collect()
+            }
             GridValue::Face(at) => {
                 let parts =
                     self.face_places(at.face).map(|place| self.parts_of_face(at.face, place));

@@ -23,6 +23,7 @@ pub(crate) mod layout;
 pub(crate) mod named;
 pub(crate) mod named_value;
 pub(crate) mod overlap;
+pub(crate) mod patch;
 pub(crate) mod pipe;
 pub(crate) mod placement;
 pub(crate) mod reads;
@@ -188,6 +189,9 @@ impl Parts {
             Item::Control(id) => &self.controls[id.index()].name,
             Item::Grid(id) => &self.grids[id.index()].name,
             Item::FacePath(id) => &self.face_paths[id.index()].name,
+            Item::Patch(patch) => {
+                return self.grids[patch.at.grid.index()].patch_name(patch).into();
+            }
             Item::State(id) => &self.states[id.index()].name,
             Item::Value(id) => &self.named_values[id.index()].name,
         };

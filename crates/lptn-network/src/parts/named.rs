@@ -104,10 +104,12 @@ impl Parts {
             "min" => GridValue::Min(grid(base)?),
             "max" => GridValue::Max(grid(base)?),
             "T" => {
-                let (base, face) = base.rsplit_once('.')?;
-                let grid = grid(base)?;
-                let face = self.grids[grid.index()].form().face_named(face)?;
-                GridValue::Face(GridFace { grid, face })
+                let (base, place) = base.rsplit_once('.')?;
+                let (id, grid) = (grid(base)?, &self.grids[grid(base)?.index()]);
+                match grid.form().face_named(place) {
+                    Some(face) => GridValue::Face(GridFace { grid: id, face }),
+                    None => GridValue::Patch(grid.patch_named(id, place)?),
+                }
             }
             _ => return None,
         })
@@ -117,12 +119,14 @@ impl Parts {
         self.grids[value.grid().index()].members(value)
     }
 
-    /// The values of all grids: mean, minimum, maximum and faces.
+    /// The values of all grids: mean, minimum, maximum, faces and patches.
     pub(crate) fn grid_values(&self) -> impl Iterator<Item = GridValue> + '_ {
         (0..self.grids.len()).map(GridId::from_len).flat_map(|id| {
             let faces = self.grids[id.index()].form().faces();
             let faces = faces.map(move |face| GridValue::Face(GridFace { grid: id, face }));
-            [GridValue::Mean(id), GridValue::Min(id), GridValue::Max(id)].into_iter().chain(faces)
+            let patches = self.grids[id.index()].patch_ids(id).map(GridValue::Patch);
+            let whole = [GridValue::Mean(id), GridValue::Min(id), GridValue::Max(id)];
+            whole.into_iter().chain(faces).chain(patches)
         })
     }
 

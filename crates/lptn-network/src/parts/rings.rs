@@ -54,6 +54,11 @@ impl Rings {
         Self { hole, nodes, squares }
     }
 
+    /// Number of rings.
+    pub(crate) fn count(&self) -> usize {
+        self.nodes.len()
+    }
+
     /// Radius of the node of a ring.
     pub(crate) fn node(&self, ring: usize) -> f64 {
         self.nodes[ring]

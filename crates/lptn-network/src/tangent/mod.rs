@@ -88,6 +88,7 @@ impl Network {
         refusal::check_capacities(self)?;
         refusal::check_fluids(self, influence)?;
         refusal::check_faces(self, influence)?;
+        refusal::check_patches(self, influence)?;
         let chunks = variables.chunks(PASS);
         let mut passes: Vec<Pass> = chunks.map(|chunk| Pass::new(self, chunk, variables)).collect();
         refusal::check_rings(self, influence, &mut passes)?;

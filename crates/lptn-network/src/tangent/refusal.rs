@@ -8,6 +8,7 @@ use super::Pass;
 use super::influence::Influence;
 use crate::id::{FacePathId, FluidId, GridId, Item, NodeId};
 use crate::network::Network;
+use crate::parts::patch::GridPatch;
 use crate::parts::shape::Shape;
 
 lptn_units::problems! {
@@ -57,6 +58,13 @@ pub enum NoTangents for |say: &dyn Fn(Item, &str) -> String| at Item {
         says format!(
             "`r_in` over `r_out` of {} depends on a parameter",
             say(Item::Grid(*grid), "a grid")
+        ),
+        help None;
+    /// The place of a patch of a face depends on a parameter: shares of heat are numbers.
+    Patch { patch: GridPatch } = "sensitivity::patch", at Some(Item::Patch(*patch)),
+        says format!(
+            "the place of {} on its face depends on a parameter",
+            say(Item::Patch(*patch), "a patch")
         ),
         help None;
     /// The specific heat of a fluid depends on its temperature and on a parameter.
@@ -119,6 +127,23 @@ pub(super) fn check_faces(network: &Network, influence: &Influence<'_>) -> Resul
         Some((path, _)) => Err(NoTangents::Faces { path }),
         None => Ok(()),
     }
+}
+
+/// Refuses parameters that a patch or its face depends on.
+pub(super) fn check_patches(
+    network: &Network,
+    influence: &Influence<'_>,
+) -> Result<(), NoTangents> {
+    for (id, grid) in network.grid_ids().zip(network.grids()) {
+        let moved = grid.patch_ids(id).find(|patch| {
+            let values = grid.values_of_patch(*patch);
+            values.into_iter().any(|value| influence.value(value))
+        });
+        if let Some(patch) = moved {
+            return Err(NoTangents::Patch { patch });
+        }
+    }
+    Ok(())
 }
 
 /// Refuses parameters that change the ratio of the radii of a round grid.
