@@ -73,18 +73,22 @@ fn netlist((kind, law): (Kind, Formula), value: impl Fn(&FieldDeclaration) -> St
     .replace("[resistor]\npath", "path")
 }
 
-/// The change of the temperature of `b` in K/s at the start, if its path comes from a face of a body
-/// that conducts without limit, of this many cells; `None` if no such path may end at a face.
-fn change_from_a_face((kind, law): (Kind, Formula), cells: &str) -> Option<f64> {
-    let text = netlist((kind, law), example).replace("from = \"a\"", "from = \"plate.z1\"");
+/// The change of the temperature of `b` in K/s at the start, if its path comes from a face, or from
+/// the patch `lid` that covers it, of a body that conducts without limit, of this many cells; `None`
+/// if no such path may end at a face.
+fn change_from_a_face((kind, law): (Kind, Formula), cells: &str, end: &str) -> Option<f64> {
+    let from = format!("from = \"plate.{end}\"");
+    let text = netlist((kind, law), example).replace("from = \"a\"", &from);
     let plate = "[material]\nideal = { k = \"1 GW/(m K)\", density = \"1 kg/m^3\", cp = \"1 kJ/(kg \
                  K)\" }\n[grid]\nplate = { material = \"ideal\", T0 = \"80 degC\", ";
     // the area of the path is that of the face
     let declared = law.declaration();
     let own = declared.fields.iter().find(|field| declared.area.first() == Some(&field.key));
     let area = own.map_or(2.0, si);
-    let text =
-        format!("{text}{plate}size = [\"{area} m\", \"1 m\", \"10 mm\"], cells = {cells} }}\n");
+    let text = format!(
+        "{text}{plate}size = [\"{area} m\", \"1 m\", \"10 mm\"], cells = {cells}, patch = {{ lid = \
+         {{ on = \"z1\", size = [\"{area} m\", \"1 m\"] }} }} }}\n"
+    );
     let network = match lptn::parse("kinds.toml", &text) {
         Ok(netlist) => netlist.network,
         Err(rejected) => {
@@ -106,13 +110,16 @@ fn change_from_a_face((kind, law): (Kind, Formula), cells: &str) -> Option<f64> 
 fn every_law_carries_the_same_heat_from_a_face_of_many_cells() {
     let mut carried = 0;
     for pair in all().into_iter().filter(|(kind, _)| !kind.is_source()) {
-        let [one, many] = ["[1, 1, 1]", "[4, 2, 1]"].map(|cells| change_from_a_face(pair, cells));
-        assert!(one.is_some() || many.is_none(), "{}", words(pair));
-        let (Some(one), Some(many)) = (one, many) else { continue };
-        assert!((many / one - 1.0).abs() < 1e-6, "{}: {many} is not {one}", words(pair));
-        carried += 1;
+        let one = change_from_a_face(pair, "[1, 1, 1]", "z1");
+        for end in ["z1", "lid"] {
+            let many = change_from_a_face(pair, "[4, 2, 1]", end);
+            assert!(one.is_some() || many.is_none(), "{}", words(pair));
+            let (Some(one), Some(many)) = (one, many) else { continue };
+            assert!((many / one - 1.0).abs() < 1e-6, "{}: {many} is not {one}", words(pair));
+            carried += 1;
+        }
     }
-    assert!(carried > 20, "{carried} laws may end at a face");
+    assert!(carried > 40, "{carried} laws may end at a face or a patch");
 }
 
 fn read(text: &str) -> Netlist {

@@ -22,6 +22,7 @@ mod fuzz;
 mod gears;
 mod grid_faces;
 mod grid_joints;
+mod grid_patches;
 mod grid_streams;
 mod grids;
 mod import;

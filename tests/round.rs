@@ -9,29 +9,8 @@ use crate::support;
 
 use lptn::prelude::*;
 use lptn_netlist::Netlist;
-use lptn_network::Item;
 
-use support::{close, column, parsed, settled};
-
-fn celsius(netlist: &Netlist, steady: &SteadyState, name: &str) -> f64 {
-    if let Ok(node) = netlist.network.node(name) {
-        return steady.temperatures[node.index()] - 273.15;
-    }
-    let mut values = netlist.network.grid_values().chain(netlist.network.idle_grid_values());
-    let value = values.find(|value| value.name(&netlist.network) == name).unwrap();
-    netlist.network.grid_value(value, &steady.temperatures) - 273.15
-}
-
-fn heat(netlist: &Netlist, steady: &SteadyState, name: &str) -> f64 {
-    match netlist.network.item(name).unwrap() {
-        Item::Conductor(id) => steady.conductor_heat[id.index()],
-        Item::FacePath(id) => netlist.network.face_paths()[id.index()]
-            .conductors()
-            .map(|c| steady.conductor_heat[c.index()])
-            .sum(),
-        other => panic!("{name} is {other:?}"),
-    }
-}
+use support::{celsius, close, column, heat, parsed, settled};
 
 /// A round cell of 21 mm x 70 mm, k = 1 W/(m K), 5 W in its volume, h = 30 W/(m^2 K) at its mantle.
 fn cell(rings: &str) -> String {

@@ -4,7 +4,7 @@
 
 use faer::{Mat, Side};
 use lptn::prelude::*;
-use lptn_network::{Network, NodeId};
+use lptn_network::{Item, Network, NodeId};
 
 /// The folder of the shipped networks.
 pub fn networks() -> std::path::PathBuf {
@@ -39,6 +39,28 @@ pub fn settled(text: &str) -> (lptn_netlist::Netlist, SteadyState) {
     let (netlist, system) = parsed(text);
     let steady = SteadyState::solve(&system, 0.0).expect("it settles");
     (netlist, steady)
+}
+
+/// The temperature of a node, or of a grid as a whole, a face or a patch, in degC.
+pub fn celsius(netlist: &lptn_netlist::Netlist, steady: &SteadyState, name: &str) -> f64 {
+    if let Ok(node) = netlist.network.node(name) {
+        return steady.temperatures[node.index()] - 273.15;
+    }
+    let mut values = netlist.network.grid_values().chain(netlist.network.idle_grid_values());
+    let value = values.find(|value| value.name(&netlist.network) == name).unwrap();
+    netlist.network.grid_value(value, &steady.temperatures) - 273.15
+}
+
+/// The heat through a path, or all paths of a face, in W.
+pub fn heat(netlist: &lptn_netlist::Netlist, steady: &SteadyState, name: &str) -> f64 {
+    match netlist.network.item(name).unwrap() {
+        Item::Conductor(id) => steady.conductor_heat[id.index()],
+        Item::FacePath(id) => netlist.network.face_paths()[id.index()]
+            .conductors()
+            .map(|c| steady.conductor_heat[c.index()])
+            .sum(),
+        other => panic!("{name} is {other:?}"),
+    }
 }
 
 /// The values of a table's column by its name.

@@ -57,9 +57,8 @@ fn unknown(network: &Network, name: &str, found: Option<Item>) -> Failure {
             )
         }
         (Some(Item::Source(id)), _) => {
-            let into = network.sources()[id.index()].into.iter();
-            let into: Vec<_> = into.map(|(node, _)| network.name_of(Item::Node(*node))).collect();
-            let into: Vec<&str> = into.iter().map(|name| &**name).collect();
+            let into = network.heated_places(id);
+            let into: Vec<&str> = into.iter().map(String::as_str).collect();
             format!("`{name}` is a source into {}", list(&into))
         }
         (_, Some(near)) => format!("did you mean `{near}`?"),

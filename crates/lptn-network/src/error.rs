@@ -9,11 +9,12 @@ use crate::error_words::{
     stream_help, stream_rows, unused_name, usable, whole_law, whole_law_help, without_brackets,
 };
 use crate::id::{
-    ConductorId, ControlId, Field, FluidId, GridId, Item, NodeId, SignalId, SourceId, StateId,
+    ConductorId, ControlId, Field, FluidId, GridId, GridPatch, Item, NodeId, SignalId, SourceId,
+    StateId,
 };
 use crate::names::list_of_names;
 use crate::parts::grid::{GridFace, MOST_CELLS};
-use crate::parts::patch::{GridPatch, PatchProblem};
+use crate::parts::patch::PatchProblem;
 use crate::patch_words::{not_on_face, other_patch, patch_field};
 
 /// Help that needs no more than the words.
@@ -28,15 +29,13 @@ lptn_units::problems! {
 pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     /// Two items of one name space have the same name: the first, and the one that took it again.
     DuplicateName { first: Item, second: Item } = "network::duplicate_name",
-        at Some((*second, Field::Name)),
-        says match (say.kind(*first), say.kind(*second)) {
+        at Some((*second, Field::Name)), says match (say.kind(*first), say.kind(*second)) {
             (a, b) if a == b => format!("two {a}s are named `{}`", say.name),
             (a, b) => format!("the name `{}` is taken twice: by a {a} and by a {b}", say.name),
         }, help Some(unused_name(*first, say.name));
     /// A name that means something inside another item, the whole, or one of its results.
     NameInside { item: Item, whole: Item } = "network::duplicate_name",
-        at Some((*item, Field::Name)),
-        says inside(say, *item, *whole),
+        at Some((*item, Field::Name)), says inside(say, *item, *whole),
         help Some(format!("rename one of them, for example `{}`", without_brackets(say.name)));
     /// A name that is not `[A-Za-z_][A-Za-z0-9_]*`.
     BadName { item: Item } = "network::bad_name", at Some((*item, Field::Name)),
@@ -184,8 +183,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
         help text("teeth are counted");
     /// A value that has to be larger than another, as an outer radius; in SI units.
     Radii { item: Item, fields: [Field; 2], inner: f64, outer: f64 } = "network::radii",
-        at Some((*item, fields[1])),
-        says radii(say, (*item, *fields), [*inner, *outer]),
+        at Some((*item, fields[1])), says radii(say, (*item, *fields), [*inner, *outer]),
         help Some(other_radii(*fields, [*inner, *outer]));
     /// A path or source with a law of the other, or not one value for each field, or a wrong fluid.
     LawValues { item: Item, formula: Formula } = "network::law_values",
@@ -386,14 +384,12 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
         help text("a body without a hole has no inner face, and a full circle no cuts");
     /// Two faces that are joined but of different shapes.
     FaceShapes { item: Item, faces: [GridFace; 2], names: [String; 2] } = "network::face_shapes",
-        at Some((*item, Field::To)),
-        says joins_but(say, names, "and their shapes do not fit"),
+        at Some((*item, Field::To)), says joins_but(say, names, "and their shapes do not fit"),
         help text("put a massless node between them, with a path to each face");
     /// Two faces that are joined but not divided in the same way: cells of each along its two axes.
     FaceCells { item: Item, faces: [GridFace; 2], names: [String; 2], cells: [[usize; 2]; 2] } =
         "network::face_cells", at Some((*item, Field::To)),
-        says joins_cells(say, names, cells),
-        help text("divide both in the same way along the face");
+        says joins_cells(say, names, cells), help text("divide both in the same way along the face");
     /// Two faces that are joined but not of the same size: lengths of each along its two axes in m.
     FaceSides { item: Item, faces: [GridFace; 2], names: [String; 2], sides: [[f64; 2]; 2] } =
         "network::face_sides", at Some((*item, Field::To)), says joins_sides(say, names, sides),
@@ -409,17 +405,16 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
         help text("cells are paired for the values in the file: write the new ones there");
     /// Two faces that parameters move, and a path that cannot follow.
     FacesMoving { item: Item, faces: [GridFace; 2], names: [String; 2] } = "network::faces_moving",
-        at Some((*item, Field::To)),
-        says joins_but(say, names, "which parameters move"), help Some(most_pairs());
+        at Some((*item, Field::To)), says joins_but(say, names, "which parameters move"),
+        help Some(most_pairs());
     /// A patch that does not lie on its face, or on other cells than those of the file.
     Patch { patch: GridPatch, problem: PatchProblem, axes: [&'static str; 2] } = "network::patch",
         at Some((Item::Patch(*patch), patch_field(problem))), says not_on_face(say, problem, axes),
         help Some(other_patch(problem, axes));
     /// A path whose area is not that of the face it ends at, in m^2.
     FaceArea { item: Item, given: f64, face: GridFace, name: String, area: f64 } =
-        "network::face_area",
-        at Field::of_law("area").map(|field| (*item, field)),
+        "network::face_area", at Field::of_law("area").map(|field| (*item, field)),
         says face_area(say, *given, (name, *area)),
-        help text("leave `area` out: it is that of the face; a part of a face is a `patch` of the grid");
+        help text("leave `area` out; a part of a face is a `patch` of the grid");
 }
 }

@@ -2,7 +2,7 @@
 
 use lptn_laws::Formula;
 
-use crate::parts::patch::GridPatch;
+use crate::parts::face::Face;
 
 macro_rules! ids {
     ($($(#[$doc:meta])* $name:ident;)*) => {$(
@@ -85,6 +85,23 @@ impl From<BoundaryId> for End {
     fn from(id: BoundaryId) -> Self {
         Self::Boundary(id)
     }
+}
+
+/// A face of a grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct GridFace {
+    /// The grid whose face it is.
+    pub grid: GridId,
+    /// The face.
+    pub face: Face,
+}
+
+/// A patch of a grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct GridPatch {
+    /// The face on which it lies.
+    pub at: GridFace,
+    pub(crate) index: u32,
 }
 
 /// Anything of a network that has a name; errors and source maps are keyed by it.

@@ -67,8 +67,8 @@ pub use error_words::{Naming, Say};
 pub use evaluation::Evaluation;
 pub use id::{
     BoundaryId, CapacitorId, ConductorId, ControlId, End, FacePathId, FaceStreamId, Field, FluidId,
-    GridId, Item, LawField, LimitId, MaterialId, NodeId, ParameterId, ReportId, SignalId, SourceId,
-    StateId, SwitchId, TableId, ValueId,
+    GridId, GridPatch, Item, LawField, LimitId, MaterialId, NodeId, ParameterId, ReportId,
+    SignalId, SourceId, StateId, SwitchId, TableId, ValueId,
 };
 pub use input_error::{InputError, InputProblem};
 pub use ladder::{Cauer, Foster, LadderError};
@@ -93,7 +93,7 @@ pub use parts::heat::HeatOf;
 pub use parts::layout::Followed;
 pub use parts::named_value::NamedValue;
 pub use parts::overlap::Placement;
-pub use parts::patch::{GridPatch, Outline, Patch, PatchProblem};
+pub use parts::patch::{Outline, Patch, PatchProblem};
 pub use parts::pipe::{Pipe, PipePart};
 pub use parts::result::{Bound, Limit, LimitSeverity, Report};
 pub use parts::shape::{Form, Shape};

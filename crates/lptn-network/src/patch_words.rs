@@ -68,7 +68,7 @@ pub(crate) fn other_patch(problem: &PatchProblem, axes: &[&str; 2]) -> String {
         PatchProblem::CurvedFace => rectangle("[\"90 deg\", \"20 mm\"]"),
         PatchProblem::NotADisc => {
             let ring = rectangle("[\"5 mm\", \"360 deg\"]");
-            format!("leave `centre` out; {ring}, with its middle radius in `centre`")
+            format!("leave `centre` out, or {ring}, with its middle radius in `centre`")
         }
         PatchProblem::Moved => {
             "shares of heat follow from the values in the file: write the new ones there".to_owned()

@@ -86,7 +86,8 @@ impl Row {
             Of::Grid(GridValue::Mean(_)) => "mean of the grid".into(),
             Of::Grid(GridValue::Min(_)) => "coldest cell".into(),
             Of::Grid(GridValue::Max(_)) => "hottest cell".into(),
-            Of::Grid(_) => "mean of the face".into(),
+            Of::Grid(GridValue::Face(_)) => "mean of the face".into(),
+            Of::Grid(GridValue::Patch(_)) => "mean of the patch".into(),
             Of::Heat(HeatOf::FacePath(id)) => {
                 let joint = &network.face_paths()[id.index()];
                 let [from, to] =
@@ -100,11 +101,7 @@ impl Row {
             Of::Heat(HeatOf::ReceivedFrom(id)) => format!("stream to {}", ends(id).0),
             Of::Heat(HeatOf::ReceivedTo(id)) => format!("stream to {}", ends(id).1),
             Of::Heat(HeatOf::Source(id)) => {
-                let into = network.sources()[id.index()].into.iter();
-                let mut into: Vec<String> =
-                    into.map(|(node, _)| network.place_name(*node)).collect();
-                into.dedup();
-                format!("source into {}", into.join(", "))
+                format!("source into {}", network.heated_places(id).join(", "))
             }
             Of::Heat(HeatOf::Told(_, key)) => key.into(),
             Of::Heat(HeatOf::Boundary(_)) if self.value > 0.0 => "boundary gives".into(),

@@ -129,11 +129,14 @@ impl<'a> Elaboration<'a> {
                     self.names.grids.get(grid).map_or("x1", KnownGrid::sample_face)
                 ),
             ),
-            GridPart::Face(_) | GridPart::Patch(_) => (
-                "netlist::not_a_node",
-                format!("{} names a face of a grid", fields.owner.field(key)),
-                "name one cell by its indices".to_owned(),
-            ),
+            GridPart::Face(_) | GridPart::Patch(_) => {
+                let part = if matches!(part, GridPart::Face(_)) { "face" } else { "patch" };
+                (
+                    "netlist::not_a_node",
+                    format!("{} names a {part} of a grid", fields.owner.field(key)),
+                    "name one cell by its indices".to_owned(),
+                )
+            }
         };
         let problem = Diagnostic::error(code, message).at(raw.span.clone(), "");
         let problem = match self.names.grids.get(grid) {
@@ -165,12 +168,14 @@ impl<'a> Elaboration<'a> {
             return None;
         }
         let name = meant.as_deref().unwrap_or(name);
+        if self.names.is_hidden(name) && self.builder.end(name).is_none() {
+            return None; // the reason has been reported
+        }
         if let Some(part) = self.part_of_grid(name) {
             return self.end_in_grid(fields, key, (name, raw), part);
         }
         match self.builder.end(name) {
             Some(end) => Some((end, raw)),
-            None if self.names.is_hidden(name) => None, // what hides it has been reported
             None => {
                 let problem = self.unknown_end((&fields.owner.field(key), key), (name, &raw.span));
                 self.report(problem);

@@ -189,7 +189,7 @@ impl<'a> Elaboration<'a> {
             self.map.value(item, Field::Initial, raw);
         }
         self.know_grid(entry, id, cells);
-        self.patches(&entry.key, id, patches?)
+        self.patches((&fields.owner, &entry.key), id, patches?)
     }
 
     fn know_grid(&mut self, entry: &RawEntry, id: GridId, cells: Vec<usize>) {

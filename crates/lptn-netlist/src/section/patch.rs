@@ -9,7 +9,6 @@ use crate::format::{KeyDeclaration, SectionDeclaration, Takes, key, shaped, text
 use crate::grid_names::VALUES;
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawValue};
-use crate::section::grid::GRID;
 use crate::work::Elaboration;
 
 /// The patches of a grid.
@@ -71,30 +70,41 @@ impl<'a> Elaboration<'a> {
     /// The patches of a grid; `None` if one of them is wrong.
     pub(super) fn patches(
         &mut self,
-        grid: &str,
+        (owner, grid): (&Owner, &str),
         id: GridId,
         entries: &'a [RawEntry],
     ) -> Option<()> {
         let mut wrong = false;
         for entry in entries {
-            wrong |= self.patch(grid, id, entry).is_none();
+            if self.patch((owner, grid), id, entry).is_none() {
+                self.names.hide_name(&format!("{grid}.{}", entry.key));
+                wrong = true;
+            }
         }
         (!wrong).then_some(())
     }
 
-    fn patch(&mut self, grid: &str, id: GridId, entry: &'a RawEntry) -> Option<()> {
-        let owner = Owner::element(GRID.name, grid).inside(&format!("patch.{}", entry.key));
+    fn patch(
+        &mut self,
+        (owner, grid): (&Owner, &str),
+        id: GridId,
+        entry: &'a RawEntry,
+    ) -> Option<()> {
+        let owner = owner.inside(&format!("patch.{}", entry.key));
         let fields = self.inner(&PATCH, owner, entry)?;
         let form = self.builder.form(id).unwrap_or(Form::Block);
         self.patch_name(&fields, entry, form)?;
         let face = self.patch_face(&fields, form)?;
         let at = GridFace { grid: id, face };
-        let types = self.builder.patch_types(at);
+        let (types, before) = (self.builder.patch_types(at), self.problems.len());
         let outline = self.outline(&fields, types)?;
         let centre = match fields.get("centre") {
             Some(_) => Some(self.two_places(&fields, "centre", types)?),
             None => None,
         };
+        if self.problems.len() > before {
+            return None;
+        }
         let patch = self.builder.patch(id, Patch::new(&entry.key, face, outline, centre))?;
         let noted = [Field::Centre, Field::Size, Field::Radius];
         self.note(Item::Patch(patch), &entry.key_span, &fields, &noted);

@@ -6,11 +6,10 @@ use lptn_units::Dimension;
 use crate::builder::grid::{scaled, typed};
 use crate::builder::{NetworkBuilder, Path};
 use crate::error::BuildErrorKind;
-use crate::id::{End, FacePathId, Field, GridId, Item, NodeId};
+use crate::id::{End, FacePathId, Field, GridId, GridPatch, Item, NodeId};
 use crate::law::Law;
 use crate::parts::grid::{FacePath, GridFace, Terminal};
 use crate::parts::overlap::{Joint, Placement};
-use crate::parts::patch::GridPatch;
 use crate::parts::shape::Form;
 use crate::value::{Input, Value};
 

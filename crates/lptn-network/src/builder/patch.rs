@@ -4,10 +4,10 @@ use lptn_units::{Dimension, Type};
 
 use crate::builder::NetworkBuilder;
 use crate::builder::grid::{scaled, typed};
-use crate::id::{Field, GridId, Item, NodeId};
+use crate::id::{Field, GridId, GridPatch, Item, NodeId};
 use crate::numbers::patch::written_parts;
 use crate::parts::grid::GridFace;
-use crate::parts::patch::{GridPatch, Outline, Patch};
+use crate::parts::patch::{Outline, Patch};
 use crate::value::{Input, Value};
 
 const LENGTH: Type = Type::of(Dimension::LENGTH);
@@ -16,7 +16,7 @@ const ANGLE: Type = Type::of(Dimension::ANGLE);
 impl NetworkBuilder {
     /// Adds a rectangle or circle of a face, named `GRID.NAME`: a source into it, and a path that
     /// ends at it, reach the cells that it covers, each by its exact share of the area. `None` if
-    /// the grid is not of this builder. Its name has to be unique among patches and faces.
+    /// the grid is not of this builder or a value has the wrong dimension. Its name has to be unique among patches and faces.
     pub fn patch(&mut self, grid: GridId, patch: Patch<Input>) -> Option<GridPatch> {
         let known = self.parts.grids.get(grid.index())?;
         let index = u32::try_from(known.patches.len()).ok()?;
@@ -24,7 +24,11 @@ impl NetworkBuilder {
         let item = Item::Patch(patch_id);
         let types = self.patch_types(patch_id.at);
         let name = format!("{}.{}", known.name, patch.name);
-        let mut value = |field, input, ty| self.typed((&name, item, field), input, ty);
+        let mut fits = true;
+        let mut value = |field, input: Input, ty| {
+            fits &= input.ty == ty;
+            self.typed((&name, item, field), input, ty)
+        };
         let outline = match patch.outline {
             Outline::Rectangle([a, b]) => Outline::Rectangle([
                 value(Field::Size, a, types[0]),
@@ -35,6 +39,9 @@ impl NetworkBuilder {
         let centre = patch
             .centre
             .map(|[a, b]| [value(Field::Centre, a, types[0]), value(Field::Centre, b, types[1])]);
+        if !fits {
+            return None;
+        }
         let mut patch =
             Patch { name: patch.name, face: patch.face, outline, centre, parts: patch.parts };
         patch.parts = written_parts(&self.parts, grid, &patch);

@@ -1,6 +1,6 @@
 //! Grids as a whole.
 
-use crate::id::{ConductorId, FacePathId, Item, NodeId};
+use crate::id::{ConductorId, FacePathId, Item, NodeId, SourceId};
 use crate::network::Network;
 use crate::parts::Parts;
 use crate::parts::grid::{Face, Terminal};
@@ -76,6 +76,23 @@ impl Network {
         let grid = &self.grids()[grid.index()];
         let face = Face::ALL.into_iter().find(|face| grid.surfaces(*face).any(|node| node == id));
         face.map_or_else(|| grid.name.clone(), |face| grid.face_name(face))
+    }
+
+    /// The names of the places that a source heats: nodes, grids, faces, patches.
+    pub fn heated_places(&self, id: SourceId) -> Vec<String> {
+        let nodes: Vec<NodeId> =
+            self.sources()[id.index()].into.iter().map(|(node, _)| *node).collect();
+        let mut places: Vec<String> = nodes.iter().map(|node| self.place_name(*node)).collect();
+        places.dedup();
+        let patches = self.parts.grid_values().filter(|value| matches!(value, GridValue::Patch(_)));
+        let mut whole = patches.filter(|patch| {
+            let members = self.parts.grid_value_members(*patch).into_iter();
+            members.eq(nodes.iter().map(|node| node.0))
+        });
+        match whole.next() {
+            Some(patch) => vec![patch.name(self).trim_end_matches(".T").to_owned()],
+            None => places,
+        }
     }
 
     /// The shares of two faces of blocks that touch; `None` for other paths and for equal faces.

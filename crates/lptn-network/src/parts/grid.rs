@@ -10,10 +10,11 @@
 
 use lptn_laws::Kind;
 
-use crate::id::{BoundaryId, ConductorId, End, FaceStreamId, GridId, Item, MaterialId, NodeId};
+pub use crate::id::GridFace;
+use crate::id::{BoundaryId, ConductorId, End, FaceStreamId, GridPatch, Item, MaterialId, NodeId};
 pub use crate::parts::face::Face;
 use crate::parts::overlap::{Joint, Placement};
-use crate::parts::patch::{GridPatch, Patch};
+use crate::parts::patch::Patch;
 use crate::parts::rings::Rings;
 use crate::parts::shape::{Form, Shape};
 use crate::value::Value;
@@ -162,15 +163,6 @@ pub enum Substance<T = Value> {
         /// Specific heat capacity in J/(kg K); may depend on `T`.
         cp: T,
     },
-}
-
-/// A face of a grid.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct GridFace {
-    /// The grid whose face it is.
-    pub grid: GridId,
-    /// The face.
-    pub face: Face,
 }
 
 /// The end of a path.

@@ -1,9 +1,8 @@
 //! Temperatures of a grid in the results: means and extremes of its cells, means of its faces.
 
-use crate::id::GridId;
+use crate::id::{GridId, GridPatch};
 use crate::parts::face::Face;
 use crate::parts::grid::{Grid, GridFace};
-use crate::parts::patch::GridPatch;
 
 /// A temperature of a grid as a whole, in K.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -24,6 +24,7 @@ pub(crate) mod named;
 pub(crate) mod named_value;
 pub(crate) mod overlap;
 pub(crate) mod patch;
+mod patch_area;
 pub(crate) mod pipe;
 pub(crate) mod placement;
 pub(crate) mod reads;

@@ -6,9 +6,8 @@ use lptn_units::Problem;
 
 use super::Pass;
 use super::influence::Influence;
-use crate::id::{FacePathId, FluidId, GridId, Item, NodeId};
+use crate::id::{FacePathId, FluidId, GridId, GridPatch, Item, NodeId};
 use crate::network::Network;
-use crate::parts::patch::GridPatch;
 use crate::parts::shape::Shape;
 
 lptn_units::problems! {
