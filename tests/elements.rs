@@ -78,6 +78,15 @@ fn capacitor() -> Vec<Closed> {
     vec![("shaft.T", "10 min", relaxed(75.0, 25.0, 600.0, 0.5 * c)), ("shaft.T", "steady", 25.0)]
 }
 
+/// Two plates of 0.8 and 0.4 and a wall that reradiates, with view factors of 1/2.
+fn enclosure() -> Vec<Closed> {
+    let sigma = 5.670_374_419e-8;
+    let [hot, cold] = [1200.0_f64, 500.0].map(|kelvin| sigma * kelvin.powi(4));
+    let q = (hot - cold) / (0.25 + 1.0 / (0.5 + 0.25) + 1.5);
+    let wall = (0.5 * (hot - 0.25 * q + cold + 1.5 * q) / sigma).powf(0.25) - 273.15;
+    vec![("duct.hot.Q", "steady", q), ("duct.cold.Q", "steady", -q), ("wall.T", "steady", wall)]
+}
+
 fn foster() -> Vec<Closed> {
     let table = [(0.02, 2e-3), (0.06, 50e-3), (0.04, 0.4)];
     let rise = |t: f64| table.iter().map(|(r, tau)| -500.0 * r * (-t / tau).exp_m1()).sum::<f64>();
@@ -253,7 +262,7 @@ fn material() -> Vec<Closed> {
 }
 
 /// Every page with its closed forms.
-fn pages() -> [(&'static str, Vec<Closed>); 21] {
+fn pages() -> [(&'static str, Vec<Closed>); 22] {
     [
         ("node", node()),
         ("capacitor", capacitor()),
@@ -266,6 +275,7 @@ fn pages() -> [(&'static str, Vec<Closed>); 21] {
         ("press_fit", joints::press_fit()),
         ("cooler", devices::cooler()),
         ("radiation", radiation()),
+        ("enclosure", enclosure()),
         ("advection", advection()),
         ("fan", devices::fan()),
         ("source", source()),

@@ -17,6 +17,7 @@ mod counters;
 mod determinism;
 mod docs;
 mod elements;
+mod enclosures;
 mod expand;
 mod fuzz;
 mod gears;

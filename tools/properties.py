@@ -13,7 +13,8 @@ Properties of Secondary Working Fluids (IIR 2010). R134a: R. Tillner-Roth and H.
 J. Phys. Chem. Ref. Data 23 (1994) 657. R1234yf: M. Richter, M. O. McLinden and E. W. Lemmon,
 J. Chem. Eng. Data 56 (2011) 3254.
 
-Carbon steel over temperature is that of EN 1993-1-2:2005, 3.4.1.
+Carbon steel over temperature is that of EN 1993-1-2:2005, 3.4.1; copper, aluminium and silicon are
+those of F. P. Incropera et al., Fundamentals of Heat and Mass Transfer, 7th ed., Table A.1.
 """
 
 from pathlib import Path
@@ -104,11 +105,36 @@ def steel_points():
 # k is linear, with a step at 800 degC
 STEEL_K_POINTS = [273.15 + c for c in (20, 799.9, 800, 1200)]
 
+# Incropera et al., 7th ed., Table A.1: T in K, k in W/(m K), cp in J/(kg K); rows at 300 K are its
+# first columns
+METALS = {
+    "copper_incropera": (
+        [100, 200, 300, 400, 600, 800, 1000, 1200],
+        [482, 413, 401, 393, 379, 366, 352, 339],
+        [252, 356, 385, 397, 417, 433, 451, 480]),
+    "aluminium_incropera": (
+        [100, 200, 300, 400, 600, 800],
+        [302, 237, 237, 240, 231, 218],
+        [482, 798, 903, 949, 1033, 1146]),
+    "silicon_incropera": (
+        [200, 300, 400, 600, 800, 1000, 1200, 1500],
+        [264, 148, 98.9, 61.9, 42.2, 31.2, 25.7, 22.7],
+        [556, 712, 790, 867, 913, 946, 967, 992]),
+}
+
+
+def tabulated(temperatures, values):
+    """A property that is known at these temperatures only, with its temperatures."""
+    return dict(zip(temperatures, values)).__getitem__, temperatures, "pchip"
+
+
 # name, properties with their functions, temperatures and interpolation, source
 SOLIDS = [
     ("steel_en_1993",
      {"cp": (steel_cp, steel_points(), "pchip"), "k": (steel_k, STEEL_K_POINTS, "linear")},
      "EN 1993-1-2:2005, 3.4.1"),
+    *((name, {"cp": tabulated(t, cp), "k": tabulated(t, k)}, "Incropera et al., 7th ed., Table A.1")
+      for name, (t, k, cp) in METALS.items()),
 ]
 
 

@@ -40,6 +40,7 @@ mod csv_form;
 mod describe;
 mod duplicate;
 mod elaborate;
+mod enclosure;
 mod expand;
 mod fields;
 mod fit;

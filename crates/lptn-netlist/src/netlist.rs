@@ -16,7 +16,6 @@ use crate::assumed;
 use crate::case;
 use crate::csv_files::CsvFiles;
 use crate::elaborate::{Elaborated, elaborate};
-use crate::foreign;
 use crate::foster::{self, Chain};
 use crate::gearbox::{self, Gearbox, Gears};
 use crate::head;
@@ -38,6 +37,7 @@ use crate::template::{self, Expanded, Structure};
 use crate::uncertainty::{self, UncertaintyPlan};
 use crate::unlikely;
 use crate::{controller, hydraulic};
+use crate::{enclosure, foreign};
 
 /// A network as a netlist describes it, with the way back to the text.
 #[derive(Clone, Debug)]
@@ -257,6 +257,7 @@ fn written_out(files: &mut Files, raw: RawNetlist) -> (Expanded, ShortForms) {
     let mut gears = gearbox::expand(raw, structure, problems);
     gears.types.extend(hydraulic::expand(raw, structure, problems));
     gears.types.extend(controller::expand(raw, structure, problems));
+    enclosure::expand(raw, structure, problems);
     let (chains, types) = foster::expand(raw, structure, problems);
     gears.types.extend(types);
     let pipes = pipe::expand(raw, structure);

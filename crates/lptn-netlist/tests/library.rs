@@ -175,6 +175,47 @@ fn structural_steel_is_that_of_its_standard() {
     near(at("cp", 735.0), 5000.0, 1e-6);
 }
 
+/// The diffusivity that Table A.1 prints in addition, in mm^2/s, and other tables: k of copper of
+/// Jaluria, Table B.5, at 100 and 300 degC; cp of aluminium by the equation of the NIST WebBook
+/// (Chase 1998); k of silicon by its usual power law (Glassbrenner and Slack 1964).
+#[test]
+fn metals_over_temperature_are_consistent() {
+    for (name, printed) in
+        [("copper_incropera", 117.0), ("aluminium_incropera", 97.1), ("silicon_incropera", 89.2)]
+    {
+        let r = record(name);
+        near(1e6 * r.k.unwrap() / (r.density.unwrap() * r.cp.unwrap()), printed, 5e-3);
+    }
+    let at = |name: &str, key: &str, kelvin: f64| {
+        let (_, table) = record(name).film.iter().find(|(known, _)| known == key).unwrap();
+        table.value_and_slope(kelvin).unwrap().0
+    };
+    near(at("copper_incropera", "k", 373.15), 379.0, 0.05);
+    near(at("copper_incropera", "k", 573.15), 369.0, 0.05);
+    // t in 1000 K; 26.9815 g/mol
+    let cp = |t: f64| {
+        28.0892 - 5.414_849 * t + 8.560_423 * t * t + 3.427_37 * t.powi(3) - 0.277_375 / (t * t)
+    };
+    for t in [0.35, 0.5, 0.7] {
+        near(at("aluminium_incropera", "cp", 1e3 * t), 1e3 * cp(t) / 26.9815, 0.015);
+    }
+    near(at("silicon_incropera", "k", 350.0), 148.0 * (300.0_f64 / 350.0).powf(4.0 / 3.0), 0.03);
+    near(at("silicon_incropera", "k", 500.0), 98.9 * (400.0_f64 / 500.0).powf(4.0 / 3.0), 0.05);
+}
+
+/// Murashko: cp = 684.87 + 0.45489 T/K and k = 1.10435 - 9.734e-4 T/K at half charge; 47.5 g.
+#[test]
+fn a_cell_is_that_of_its_measurements() {
+    let cell = record("cell_18650_nca");
+    near(cell.cp.unwrap(), 684.87 + 0.45489 * 298.15, 1e-3);
+    near(cell.k_through.unwrap(), 1.10435 - 9.734e-4 * 298.15, 0.01);
+    near(
+        cell.density.unwrap(),
+        47.5e-3 / (std::f64::consts::PI / 4.0 * 18.35e-3_f64.powi(2) * 65e-3),
+        2e-3,
+    );
+}
+
 /// Units of the entries that their sources print in calories, and second numbers where there are
 /// any: Hirosugi prints a specific gravity of 1.80 for FR-4, Roditi 3.25 g/cm^3 and 100 to 180
 /// W/(m K) for AlN, makeitfrom.com the diffusivity of alumina.

@@ -23,6 +23,7 @@ use super::state::STATE;
 use super::table::TABLE;
 use crate::case::CaseStudy;
 use crate::controller::CONTROLLER;
+use crate::enclosure::ENCLOSURE;
 use crate::fit::FitStudy;
 use crate::format::{NetlistFormat, SectionDeclaration};
 use crate::foster::FOSTER;
@@ -45,9 +46,9 @@ use crate::uncertainty::UNCERTAINTY;
 use crate::work::Elaboration;
 
 /// The sections before and after those of paths and sources, in the order of messages.
-static BEFORE: [&SectionDeclaration; 14] = [
+static BEFORE: [&SectionDeclaration; 15] = [
     &PARAM, &TABLE, &SIGNAL, &DEFAULT, &MATERIAL, &FLUID, &LUBRICANT, &FAN, &NODE, &GRID,
-    &CAPACITOR, &BOUNDARY, &FOSTER, &PIPE,
+    &CAPACITOR, &BOUNDARY, &FOSTER, &ENCLOSURE, &PIPE,
 ];
 static BEHIND: [&SectionDeclaration; 13] = [
     &GEARBOX,

@@ -1,0 +1,140 @@
+//! `[enclosure]`: grey, diffuse surfaces that see each other, written out as Oppenheim's network of
+//! radiosities before anything is read.
+//!
+//! Surface i has a massless node of its radiosity J_i = sigma T_J^4, a path e A / (1 - e) to it, and
+//! a path A_i F_ij from it to each other radiosity. A black surface is its own radiosity.
+
+mod read;
+mod surface;
+mod view;
+
+use lptn_data::{Diagnostic, Span};
+use lptn_laws::Kind;
+
+use crate::format::{Role, SectionDeclaration, Takes, key, number, shaped};
+use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
+use crate::section::NODE;
+use crate::template::Structure;
+use read::Read;
+use surface::{Emissivity, Surface};
+
+/// `[enclosure]`, as netlists declare it.
+pub(crate) const ENCLOSURE: SectionDeclaration = SectionDeclaration {
+    name: "enclosure",
+    sentence: "Grey, diffuse surfaces that see each other and nothing else.",
+    role: Role::Element,
+    keys: &[
+        shaped(
+            "surfaces",
+            "table of surfaces",
+            Takes::Each(&Takes::Table(&SURFACE)),
+            "its surfaces, by the names of their nodes or boundaries",
+            "{ part = { area = \"0.2 m^2\", emissivity = 0.8 }, walls = { area = \"3 m^2\", \
+             emissivity = 0.6 } }",
+        )
+        .needed(),
+        shaped(
+            "view_factors",
+            "list of [from, to, F]",
+            Takes::list(&Takes::List(&Takes::Like, 3, 3)),
+            "the share of the radiation of a surface that reaches another one, or itself",
+            "[[\"part\", \"walls\", 1], [\"walls\", \"walls\", 0.9333]]",
+        )
+        .needed(),
+    ],
+    example: "{ surfaces = { part = { area = \"0.2 m^2\", emissivity = 0.8 }, walls = { area = \
+              \"3 m^2\", emissivity = 0.6 } }, view_factors = [[\"part\", \"walls\", 1], \
+              [\"walls\", \"walls\", 0.9333]] }",
+    elsewhere: &[
+        ("F", "view factors are in `view_factors`"),
+        ("view_factor", "view factors are in `view_factors`, a list of [from, to, F]"),
+        ("emissivity", "each surface has its own: `surfaces = { part = { area, emissivity } }`"),
+        ("area", "each surface has its own: `surfaces = { part = { area, emissivity } }`"),
+    ],
+    ..SectionDeclaration::NEW
+};
+
+const SURFACE: SectionDeclaration = SectionDeclaration {
+    name: "surface",
+    sentence: "A surface of an enclosure.",
+    keys: &[
+        key("area", "m^2", "area of the surface, a number", "\"0.2 m^2\"").needed(),
+        number("emissivity", "above 0, at most 1; an expression below 1", "0.8").needed(),
+    ],
+    example: "{ area = \"0.2 m^2\", emissivity = 0.8 }",
+    elsewhere: &[("epsilon", "the emissivity is `emissivity`"), ("A", "the area is `area`")],
+    ..SectionDeclaration::NEW
+};
+
+/// Replaces every enclosure by massless nodes and radiation paths.
+pub(crate) fn expand(raw: &mut RawNetlist, structure: &Structure, problems: &mut Vec<Diagnostic>) {
+    for entry in raw.take(ENCLOSURE.name) {
+        let Some(read) = Read::of(&entry, problems) else { continue };
+        let around = structure.instance_at(&entry.key_span);
+        let around = around.map_or(String::new(), |path| format!("{path}."));
+        let here = entry.key.strip_prefix(&around).unwrap_or(&entry.key);
+        let written = Written { full: &entry.key, here, at: &entry.key_span, raw };
+        written.all(&read);
+    }
+}
+
+/// An enclosure that is being written out.
+struct Written<'w> {
+    /// Its name, and the one inside its template.
+    full: &'w str,
+    here: &'w str,
+    at: &'w Span,
+    raw: &'w mut RawNetlist,
+}
+
+impl Written<'_> {
+    fn all(mut self, read: &Read<'_>) {
+        for surface in &read.surfaces {
+            self.surface(surface);
+        }
+        for &(i, j, exchange) in &read.exchange {
+            let [a, b] = [&read.surfaces[i], &read.surfaces[j]];
+            let name = format!("{}.{}.{}", self.full, a.name, b.name);
+            let ends = [self.radiosity(a), self.radiosity(b)];
+            self.path(&name, ends, &[("Gr", &format!("{exchange} m^2"))], self.at);
+        }
+    }
+
+    /// The radiosity of a grey surface, and the path to it.
+    fn surface(&mut self, surface: &Surface<'_>) {
+        let Emissivity::Grey(text) = &surface.emissivity else { return };
+        let massless = RawValue { span: self.at.clone(), kind: RawKind::Boolean(true) };
+        let node = element(
+            &format!("{}.{}.J", self.full, surface.name),
+            vec![RawEntry::new("massless", massless)],
+            self.at,
+        );
+        self.raw.push(NODE.name, node);
+        let name = format!("{}.{}", self.full, surface.name);
+        let ends = [RawValue::text(surface.name.to_owned(), surface.at), self.radiosity(surface)];
+        let seen = format!("{} [m^2] / (1 - ({text}))", surface.area);
+        self.path(&name, ends, &[("emissivity", text), ("area", &seen)], surface.emissivity_at);
+    }
+
+    /// The end that stands for the radiosity of a surface.
+    fn radiosity(&self, surface: &Surface<'_>) -> RawValue {
+        match surface.emissivity {
+            Emissivity::Black => RawValue::text(surface.name.to_owned(), surface.at),
+            Emissivity::Grey(_) => {
+                RawValue::text(format!("{}.{}.J", self.here, surface.name), self.at)
+            }
+        }
+    }
+
+    fn path(&mut self, name: &str, ends: [RawValue; 2], law: &[(&str, &str)], at: &Span) {
+        let ends = ["from", "to"].into_iter().zip(ends);
+        let law = law.iter().map(|(key, text)| (*key, RawValue::text((*text).to_owned(), at)));
+        let fields = ends.chain(law).map(|(key, value)| RawEntry::new(key, value)).collect();
+        self.raw.push(Kind::Radiation.declaration().section, element(name, fields, self.at));
+    }
+}
+
+fn element(name: &str, fields: Vec<RawEntry>, at: &Span) -> RawEntry {
+    let kind = RawKind::Table(RawTable { span: at.clone(), entries: fields });
+    RawEntry::new(name, RawValue { span: at.clone(), kind })
+}
