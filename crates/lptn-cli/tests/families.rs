@@ -97,6 +97,34 @@ fn tables_of_a_run_have_one_row_for_a_family() {
     run.prints("heat over 30 min:  in 167.4 kJ = air 167.4 kJ");
 }
 
+/// `index` in `set` gives cell k a power of 5 W (1 + k/50), known to 2 %: with 2 K/W to the air, the
+/// last one reaches 25 + 14.8 = 39.8 degC, known to 0.296 K, and the first one 35.2 degC.
+#[test]
+fn values_of_the_number_have_their_uncertainty() {
+    let folder = Folder::with(
+        "row.toml",
+        "format = 1\n[param]\nP0 = \"5 ± 0.1 W\"\n[default]\nT0 = \"25 degC\"\n\
+         [boundary]\nair = { T = \"25 degC\" }\n\
+         [template.cell]\nparam = { P = { unit = \"W\" } }\nport = [\"base\"]\n\
+         [template.cell.node]\ncore = { C = \"6 J/K\" }\n\
+         [template.cell.resistor]\nout = { from = \"core\", to = \"base\", R = \"2 K/W\" }\n\
+         [template.cell.source]\nloss = { into = \"core\", P = \"P\" }\n\
+         [use.row]\ntemplate = \"cell\"\ncount = 24\nconnect = { base = \"air\" }\n\
+         set = { P = \"P0 * (1 + index / 50)\" }\n\
+         [limit]\nhot = { of = \"row[*].core.T\", below = \"41 degC\" }\n[run]\nstop = \"20 min\"\n",
+    );
+    let steady = folder.run(&["steady", "row.toml"]).exits(0);
+    steady.prints("row[*].core  [24] of 24  35.2 to 39.8 ");
+    let run = folder.run(&["run", "row.toml", "--no-files", "--uncertainty", "linear"]).exits(0);
+    let run = run.prints("39.800").prints("0.296").prints("hot[*]  [24] of 24  1.200 K  0.296 K");
+    assert!(!run.out.contains("hot[7]"), "{}", run.out);
+    let flat = folder.run(&["check", "row.toml", "--expand"]).exits(0);
+    folder.write("flat.toml", &flat.out);
+    let [own, flat] = ["row.toml", "flat.toml"]
+        .map(|file| folder.run(&["run", file, "--no-files", "--format", "csv"]).exits(0).out);
+    assert!(own == flat && own.lines().count() > 2, "{own}");
+}
+
 /// In steady state 46 - 49.2 and, with 120 W, 46 - 41 K; with 6 W below 46 degC each.
 #[test]
 fn a_comparison_has_one_column_for_a_family() {

@@ -42,7 +42,8 @@ impl Page for RunAnswer {
         }
         limits::section(&mut text, &self.judgement(&self.limits()));
         if let Some(study) = self.uncertainty() {
-            uncertainty::text::sections(&mut text, network, (study, &self.task.unit));
+            let of = (network, self.folds());
+            uncertainty::text::sections(&mut text, of, (study, &self.task.unit));
         }
         events::section(&mut text, (&self.solution, self.folds()), span, self.task.clock);
         columns(self, &mut text);
