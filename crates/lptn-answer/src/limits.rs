@@ -56,17 +56,45 @@ pub struct Judgement<'a> {
     pub clock: Clock,
     /// The results, in the order of the network.
     pub limits: &'a [LimitResult],
+    /// True if large families are shown as their worst member.
+    pub fold: bool,
 }
 
-/// A section with a line for each limit, or with `fold` for each large family.
+impl<'a> Judgement<'a> {
+    fn of(&self, judged: &LimitResult) -> &'a Limit {
+        &self.netlist.network.limits()[judged.limit.index()]
+    }
+
+    fn rows(&self) -> Vec<Row<LimitResult>> {
+        let named = |judged: &LimitResult| family(judged, self.of(judged));
+        families::folded(self.limits.to_vec(), self.fold, named, |judged| -judged.margin)
+    }
+
+    /// Broken limits: of a large family the worst one, and how many others are broken.
+    fn broken(&self) -> Vec<(LimitResult, String)> {
+        let others = |row: &Row<LimitResult>| match row
+            .others
+            .iter()
+            .filter(|judged| judged.is_broken())
+            .count()
+        {
+            0 => String::new(),
+            n => format!(", and {n} more of {}", row.name),
+        };
+        let rows = self.rows().into_iter().filter(|row| row.item.is_broken());
+        rows.map(|row| (row.item, others(&row))).collect()
+    }
+}
+
+/// A section with a line for each limit, or for each large family.
 /// Nothing without limits.
-pub fn section(text: &mut Text, judgement: &Judgement<'_>, fold: bool) {
-    let Judgement { netlist: Netlist { network, .. }, unit, clock, limits } = *judgement;
+pub fn section(text: &mut Text, judgement: &Judgement<'_>) {
+    let Judgement { netlist: Netlist { network, .. }, unit, clock, limits, .. } = *judgement;
     if limits.is_empty() {
         return;
     }
-    let of = |judged: &LimitResult| &network.limits()[judged.limit.index()];
-    let rows = families::folded(limits.to_vec(), fold, |j| family(j, of(j)), |j| -j.margin);
+    let of = |judged: &LimitResult| judgement.of(judged);
+    let rows = judgement.rows();
     let table = TextTable::of(&rows).left("limit", |row| row.name.as_str());
     let mut table = families::members(table, &rows, "worst")
         .left("wanted", |row| of(&row.item).text.as_str())
@@ -96,14 +124,21 @@ fn bounded(network: &Network, id: LimitId, unit: &Unit) -> String {
 
 /// Marks the limits in the panels of their quantities: temperatures, and columns by name.
 /// Returns the number of limits without such a panel.
-pub fn mark(panels: &mut [Panel], network: &Network, unit: &Unit) -> usize {
+pub fn mark(panels: &mut [Panel], network: &Network, unit: &Unit, fold: bool) -> usize {
     let mut left_out = 0;
-    for id in network.limit_ids() {
+    // limits of one family with one bound are one line
+    let named = |id: &LimitId| {
+        let name = &network.limits()[id.index()].name;
+        (format!("{name} {}", bounded(network, *id, unit)), 0)
+    };
+    for row in families::folded(network.limit_ids().collect(), fold, named, |_| 0.0) {
+        let id = row.item;
         let limit = &network.limits()[id.index()];
         let value = bound(network, limit);
         let of_temperatures = limit.ty.absolute && limit.ty.dimension == Dimension::TEMPERATURE;
         let value = if of_temperatures { unit.from_si(value) } else { value };
-        let level = Level { name: printed(&wanted(network, id, unit)), value };
+        let name = if row.others.is_empty() { wanted(network, id, unit) } else { row.name };
+        let level = Level { name: printed(&name), value };
         let shows = |panel: &&mut Panel| {
             let named = panel.curves.iter().any(|curve| curve.name == limit.text);
             if of_temperatures { panel.y.name == TEMPERATURE } else { named }
@@ -117,21 +152,22 @@ pub fn mark(panels: &mut [Panel], network: &Network, unit: &Unit) -> usize {
 }
 
 /// Broken limits with their excess and its time: rows may miss it.
-pub fn broken(network: &Network, limits: &[LimitResult], unit: &Unit) -> Vec<String> {
-    let said = |judged: &LimitResult| {
-        let limit = &network.limits()[judged.limit.index()];
-        let by = number(-judged.margin, limit.margin_type(), unit);
+pub fn broken(judgement: &Judgement<'_>) -> Vec<String> {
+    let said = |(judged, others): (LimitResult, String)| {
+        let limit = judgement.of(&judged);
+        let by = number(-judged.margin, limit.margin_type(), judgement.unit);
         let at = judged.worst_at.map_or(String::new(), |time| format!(" at {}", duration(time, 3)));
-        format!("{} broken by {by}{at}", limit.name)
+        format!("{} broken by {by}{at}{others}", limit.name)
     };
-    limits.iter().filter(|judged| judged.is_broken()).map(said).collect()
+    judgement.broken().into_iter().map(said).collect()
 }
 
 /// Claims for a report on broken, kept and unjudged limits.
-pub fn claims(network: &Network, limits: &[LimitResult], unit: &Unit) -> Vec<Claim> {
+pub fn claims(judgement: &Judgement<'_>) -> Vec<Claim> {
+    let limits = judgement.limits;
     let open = limits.iter().filter(|judged| judged.is_open()).count();
-    let broken = broken(network, limits, unit);
-    let kept = limits.len() - open - broken.len();
+    let kept = limits.iter().filter(|judged| !judged.is_open() && !judged.is_broken()).count();
+    let broken = broken(judgement);
     let told = |n: usize, what: &str| format!("{} {what}", count(n, "limit"));
     let mut claims: Vec<Claim> =
         broken.into_iter().map(|broken| Claim::checked(false, broken)).collect();
@@ -208,25 +244,24 @@ pub fn members(
 /// The verdict on limits.
 #[derive(Clone, Debug, Default)]
 pub struct Verdict {
-    /// Broken limits of severity warning.
+    /// Broken limits of severity warning, of a large family the worst.
     pub warnings: Vec<Diagnostic>,
-    /// A sentence for each broken limit of severity error.
+    /// A sentence for each broken limit of severity error, of a large family for the worst.
     pub broken: Vec<String>,
 }
 
 impl Verdict {
     /// The verdict on all limits.
     pub fn of(judgement: &Judgement<'_>) -> Self {
-        let Judgement { netlist, limits, .. } = *judgement;
-        let severity = |found: &LimitResult| netlist.network.limits()[found.limit.index()].severity;
-        let broken = |wanted: LimitSeverity| {
-            limits.iter().filter(move |found| found.is_broken() && severity(found) == wanted)
-        };
-        let said = |found| format!("limit broken: {}", words(judgement, found));
-        Self {
-            warnings: broken(LimitSeverity::Warning).map(|f| warning(judgement, f)).collect(),
-            broken: broken(LimitSeverity::Error).map(said).collect(),
+        let mut verdict = Self::default();
+        for (found, others) in judgement.broken() {
+            let words = words(judgement, &found) + &others;
+            match judgement.of(&found).severity {
+                LimitSeverity::Warning => verdict.warnings.push(warning(judgement, &found, words)),
+                LimitSeverity::Error => verdict.broken.push(format!("limit broken: {words}")),
+            }
         }
+        verdict
     }
 
     /// True if every limit of severity error that was judged is kept.
@@ -235,10 +270,10 @@ impl Verdict {
     }
 }
 
-fn warning(judgement: &Judgement<'_>, judged: &LimitResult) -> Diagnostic {
+fn warning(judgement: &Judgement<'_>, judged: &LimitResult, words: String) -> Diagnostic {
     let item = Item::Limit(judged.limit);
     let place = judgement.netlist.source_map.name(item);
-    Diagnostic::warning("limit::exceeded", words(judgement, judged)).at(place, "")
+    Diagnostic::warning("limit::exceeded", words).at(place, "")
 }
 
 /// "`hot` (steel.T below 110 degC) by 3.2 K at 25 min, first after 12.05 min".

@@ -31,7 +31,9 @@ fn lines_from(ran: &Ran, start: &str) -> usize {
 fn a_family_is_one_row_with_its_worst_member() {
     let folder = pack();
     let steady = folder.run(&["steady", "pack.toml"]).exits(1);
-    assert_eq!(lines_from(&steady, "row[*].core  [24] of 24      49.2  "), 1, "{}", steady.out);
+    let row = "row[*].core  [24] of 24  41.2 to 49.2 ";
+    assert_eq!(lines_from(&steady, row), 1, "{}", steady.out);
+    assert_eq!(lines_from(&steady, "row[*].loss   [24] of 24  5.0 to 9.0"), 1, "{}", steady.out);
     assert_eq!(lines_from(&steady, "row["), 3, "{}", steady.out);
     let steady =
         steady.prints("\nhot[*]  [24] of 24  row[24].core.T  below 46 degC  -3.2 K  BROKEN\n");
@@ -39,6 +41,105 @@ fn a_family_is_one_row_with_its_worst_member() {
     let run = folder.run(&["run", "pack.toml", "--no-files"]).exits(1);
     assert_eq!((lines_from(&run, "row["), lines_from(&run, "hot[")), (1, 1), "{}", run.out);
     run.prints("\nT [degC]     hottest     start").prints("\nrow[*].core  [24] of 24   25.0");
+}
+
+/// All cells are too hot: 124 W through 0.05 K/W and 5 W through 2 K/W are 41.2 degC.
+#[test]
+fn a_verdict_names_the_worst_of_a_family_once() {
+    let folder = pack();
+    let text = folder.read("pack.toml").replace("46 degC", "40 degC");
+    folder.write("hot.toml", &text);
+    let steady = folder.run(&["steady", "hot.toml"]).exits(1);
+    let worst = "limit broken: `hot[24]` (row[24].core.T below 40 degC) by 9.2 K in steady state, and 23 \
+                 more of hot[*]\n";
+    assert_eq!(steady.err.matches("limit broken").count(), 1, "{}", steady.err);
+    steady.says(worst);
+    let all = folder.run(&["steady", "hot.toml", "-v"]).exits(1);
+    assert_eq!(all.err.matches("limit broken").count(), 24, "{}", all.err);
+    folder.write(
+        "warm.toml",
+        &text.replace("below = \"40 degC\"", "below = \"40 degC\", severity = \"warning\""),
+    );
+    let warned = folder.run(&["steady", "warm.toml"]).exits(0);
+    assert_eq!(warned.err.matches("warning[").count(), 1, "{}", warned.err);
+}
+
+/// Without heat capacities every row of a run is the steady state at its time: 124 W and 9 W above;
+/// after the step, half of the heat and half of the rise.
+#[test]
+fn tables_of_a_run_have_one_row_for_a_family() {
+    let folder = pack();
+    let text = folder.read("pack.toml");
+    let text = text
+        .replace("C = \"5 kJ/K\"", "massless = true")
+        .replace("C = \"60 J/K\"", "massless = true")
+        .replace("P = \"P\"", "P = \"P * if(t < 900 [s], 1, 0.5)\"")
+        .replace(
+            "T0 = \"25 degC\"\n",
+            "T0 = \"25 degC\"\n[template.cell.state]\nq = { rate = \"P\", start = \"0 J\", size = \"1 kJ\" }\n",
+        )
+        .replace(
+            "stop = \"30 min\"",
+            "stop = \"30 min\"\nwindow = { late = { from = \"20 min\", to = \"30 min\" } }\n",
+        );
+    folder.write("step.toml", &text);
+    let run = folder.run(&["run", "step.toml", "--no-files"]).exits(1);
+    let rows: Vec<&str> = run.out.lines().filter(|line| line.starts_with("row[")).collect();
+    let has = |parts: &[&str]| {
+        let found = |row: &&&str| parts.iter().all(|part| row.contains(part));
+        assert_eq!(rows.iter().filter(found).count(), 1, "{parts:?} {}", run.out);
+    };
+    has(&["row[*].core ", "[24] of 24", "41.2 to 49.2"]);
+    has(&["row[*].core.T [degC]", "[24] of 24", "33.10 to 37.10"]);
+    // 1800 s of 5 W and of 9 W
+    has(&["row[*].q [J]", "[24] of 24", " 0.0  9000.0 to 16200.0"]);
+    // 1350 s of 124 W
+    run.prints("heat over 30 min:  in 167.4 kJ = air 167.4 kJ");
+}
+
+/// `index` in `set` gives cell k a power of 5 W (1 + k/50), known to 2 %: with 2 K/W to the air, the
+/// last one reaches 25 + 14.8 = 39.8 degC, known to 0.296 K, and the first one 35.2 degC.
+#[test]
+fn values_of_the_number_have_their_uncertainty() {
+    let folder = Folder::with(
+        "row.toml",
+        "format = 1\n[param]\nP0 = \"5 ± 0.1 W\"\n[default]\nT0 = \"25 degC\"\n\
+         [boundary]\nair = { T = \"25 degC\" }\n\
+         [template.cell]\nparam = { P = { unit = \"W\" } }\nport = [\"base\"]\n\
+         [template.cell.node]\ncore = { C = \"6 J/K\" }\n\
+         [template.cell.resistor]\nout = { from = \"core\", to = \"base\", R = \"2 K/W\" }\n\
+         [template.cell.source]\nloss = { into = \"core\", P = \"P\" }\n\
+         [use.row]\ntemplate = \"cell\"\ncount = 24\nconnect = { base = \"air\" }\n\
+         set = { P = \"P0 * (1 + index / 50)\" }\n\
+         [limit]\nhot = { of = \"row[*].core.T\", below = \"41 degC\" }\n[run]\nstop = \"20 min\"\n",
+    );
+    let steady = folder.run(&["steady", "row.toml"]).exits(0);
+    steady.prints("row[*].core  [24] of 24  35.2 to 39.8 ");
+    let run = folder.run(&["run", "row.toml", "--no-files", "--uncertainty", "linear"]).exits(0);
+    let run = run.prints("39.800").prints("0.296").prints("hot[*]  [24] of 24  1.200 K  0.296 K");
+    assert!(!run.out.contains("hot[7]"), "{}", run.out);
+    let flat = folder.run(&["check", "row.toml", "--expand"]).exits(0);
+    folder.write("flat.toml", &flat.out);
+    let [own, flat] = ["row.toml", "flat.toml"]
+        .map(|file| folder.run(&["run", file, "--no-files", "--format", "csv"]).exits(0).out);
+    assert!(own == flat && own.lines().count() > 2, "{own}");
+}
+
+/// In steady state 46 - 49.2 and, with 120 W, 46 - 41 K; with 6 W below 46 degC each.
+#[test]
+fn a_comparison_has_one_column_for_a_family() {
+    let folder = pack();
+    let text = folder.read("pack.toml");
+    folder.write("steady.toml", text.split("[run]").next().unwrap());
+    let compare = ["compare", "steady.toml", "--set", "row[24].P=9W,5W"];
+    let some = folder.run(&compare).exits(1);
+    let some = some.prints("-3.20 K [24]").prints("hot[*]").prints("5.00 K [1]");
+    assert!(!some.out.contains("hot[7]"), "{}", some.out);
+    some.says("breaks hot[24]");
+    let all = folder.run(&["compare", "steady.toml", "--set", "row[24].P=9W,5W", "-v"]).exits(1);
+    assert!(all.out.contains("hot[7]"), "{}", all.out);
+    let json = folder.run(&["compare", "steady.toml", "--format", "json"]).json();
+    assert!(json.to_string().contains("hot[7].margin"), "{json}");
 }
 
 #[test]

@@ -101,6 +101,7 @@ fn the_library_compares_as_the_program_does() {
         periodic: false,
         sort: SortKey::Margin,
         temperature_unit: None,
+        detail: Detail::Brief,
         threads: Some(1),
         command: Vec::new(),
     };

@@ -11,7 +11,7 @@ use lptn_units::Expression;
 use crate::format::NetlistFormat;
 use crate::grid_part::KnownGrid;
 use crate::raw::{RawEntry, RawKind, RawNetlist};
-use crate::template::Structure;
+use crate::template::{INDEX, Structure};
 
 lptn_units::words! {
 /// The kind of a name in an expression.
@@ -205,9 +205,24 @@ impl Names {
 
     /// An expression with the names that are meant at its place.
     pub(crate) fn resolved(&self, place: &Span, expression: Expression) -> Expression {
-        let members = |name: &str| self.structure.members(place, name);
-        let each = expression.with_members(&members).into_owned();
-        each.renamed(&|name| self.structure.meaning(place, name))
+        let expression = match self.index_at(place) {
+            Some(index) => expression.with_number(INDEX, index),
+            None => expression,
+        };
+        let full = expression.renamed(&|name| self.structure.meaning(place, name));
+        full.with_members(&|name| self.structure.all_of(name)).into_owned()
+    }
+
+    /// The number of the instance that a place is read for, unless `index` has another meaning
+    /// in the file.
+    fn index_at(&self, place: &Span) -> Option<usize> {
+        self.structure.index_at(place).filter(|_| !self.is_value(INDEX))
+    }
+
+    /// True if a name, with the meaning that it has at its place, is a value by itself.
+    pub(crate) fn is_value_at(&self, place: &Span, name: &str) -> bool {
+        let index = || name == INDEX && self.structure.index_at(place).is_some();
+        self.is_value(&self.structure.resolve(place, name)) || index()
     }
 
     /// Notes a material or fluid that cannot be read, with its section.

@@ -11,18 +11,18 @@ use crate::misplaced::{LOCAL, control_not_here, depends_on_time, not_here, value
 use crate::names::{Names, ValueKind, base};
 use crate::place::{Place, Text, Wanted};
 use crate::raw::RawKind;
-use crate::template::{in_own_words, outside, wrong_path};
+use crate::template::{INDEX, in_own_words, no_index, outside, two_meanings, wrong_path};
 
 impl Names {
     /// Reads the text without resolving names.
     pub(crate) fn text(&self, place: Place<'_>, ty: Option<Type>) -> Result<Text, Diagnostic> {
         match &place.raw.kind {
             RawKind::String { text, .. } => {
-                let (at, structure) = (&place.raw.span, &self.structure);
+                let at = &place.raw.span;
                 if let Some(known) = self.expressions.borrow().get(text) {
                     return Ok(Text::Expression(self.resolved(at, known.clone())));
                 }
-                match parse_value(text, ty, &|name| self.is_value(&structure.resolve(at, name))) {
+                match parse_value(text, ty, &|name| self.is_value_at(at, name)) {
                     Ok(Written::Quantity(quantity)) => Ok(Text::Quantity(quantity)),
                     Ok(Written::Expression(expression)) => {
                         self.expressions.borrow_mut().insert(text.clone(), expression.clone());
@@ -80,6 +80,9 @@ impl Names {
         let at = || place.raw.part(&range);
         if let Some(kind) = self.value_kind(&name) {
             self.used.insert(name.clone());
+            if name == INDEX && self.structure.index_at(&place.raw.span).is_some() {
+                return Some(two_meanings(place, kind, at()));
+            }
             return match kind {
                 ValueKind::Signal if !wanted.time => Some(depends_on_time(place, &name, at())),
                 ValueKind::Control if !wanted.controls => {
@@ -156,6 +159,9 @@ impl Names {
                     "expressions may use parameters, tables and, if time is allowed, signals, \
                  controls and `t`: write the value itself",
                 );
+        }
+        if name == INDEX {
+            return no_index(place, self.structure.instance_at(&place.raw.span), at);
         }
         let error = Diagnostic::error(
             "netlist::unknown_name",

@@ -20,6 +20,7 @@ mod fixes;
 mod good;
 mod import;
 mod include;
+mod index;
 mod library;
 mod limits;
 mod materials;

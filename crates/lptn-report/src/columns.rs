@@ -1,7 +1,11 @@
 //! The columns of a table as panels of a figure.
 
+use std::collections::BTreeMap;
+
 use lptn_plot::figure::{Axis, Curve, Panel};
 use lptn_solve::{Column, Table};
+
+use crate::families::{MORE_MEMBERS, family};
 
 /// Most curves that can be distinguished in one panel.
 pub const MOST_CURVES: usize = 12;
@@ -11,8 +15,9 @@ pub const TEMPERATURE: &str = "temperature";
 
 /// Panels of the columns of a table over its first one, and the number of columns left out.
 /// Each unit has a panel, in order of appearance. Names of temperatures lose their end `.T`. A
-/// panel shows at most [`MOST_CURVES`] columns: those that reach highest.
-pub fn panels(table: &Table) -> (Vec<Panel>, usize) {
+/// panel shows at most [`MOST_CURVES`] columns: those that reach highest. With `fold`, a large
+/// family is its highest and its lowest member, in a band from the least to the largest value.
+pub fn panels(table: &Table, fold: bool) -> (Vec<Panel>, usize) {
     let Some((first, others)) = table.columns().split_first() else {
         return (Vec::new(), 0);
     };
@@ -26,10 +31,12 @@ pub fn panels(table: &Table) -> (Vec<Panel>, usize) {
         done.push(key);
         let same = |other: &&Column| (Quantity::of(other), other.unit.as_str()) == key;
         let all: Vec<&Column> = others.iter().filter(same).collect();
-        let shown = highest(&all);
-        left_out += all.len() - shown.len();
+        let (bands, single) = if fold { grouped(&all) } else { (Vec::new(), all.clone()) };
+        let shown = highest(&single);
+        left_out += single.len() - shown.len();
         let name = key.0.name().unwrap_or(if all.len() == 1 { &column.name } else { "" });
         let mut panel = Panel::new(across(first), Axis::linear(name, key.1));
+        panel.curves.extend(bands.iter().flat_map(|members| band(first, members, key.0)));
         shown.into_iter().for_each(|column| add(&mut panel.curves, curve(first, column)));
         panels.push(panel);
     }
@@ -81,6 +88,50 @@ fn curve(first: &Column, column: &Column) -> Curve {
     Curve::line(name, first.values.iter().copied().zip(column.values.iter().copied()).collect())
 }
 
+/// The members of each large family, and the other columns.
+fn grouped<'a>(columns: &[&'a Column]) -> (Vec<Vec<&'a Column>>, Vec<&'a Column>) {
+    let mut families: BTreeMap<String, Vec<&Column>> = BTreeMap::new();
+    let whole = |column: &Column| family(&column.name).map(|(whole, _)| whole);
+    for column in columns {
+        if let Some(whole) = whole(column) {
+            families.entry(whole).or_default().push(column);
+        }
+    }
+    families.retain(|_, members| members.len() >= MORE_MEMBERS);
+    let single = |column: &&&Column| !whole(column).is_some_and(|w| families.contains_key(&w));
+    let single = columns.iter().filter(single).copied().collect();
+    (families.into_values().collect(), single)
+}
+
+/// The highest and the lowest member of a family, the highest in the band of all.
+fn band(first: &Column, members: &[&Column], quantity: Quantity) -> Vec<Curve> {
+    let words = match quantity {
+        Quantity::Temperature => ["hottest", "coldest"],
+        _ => ["highest", "lowest"],
+    };
+    // members often start at one temperature: their sums decide
+    let sum = |column: &Column| column.values.iter().filter(|x| x.is_finite()).sum::<f64>();
+    let higher =
+        |a: &&&Column, b: &&&Column| peak(a).total_cmp(&peak(b)).then(sum(a).total_cmp(&sum(b)));
+    let lower = |a: &&&Column, b: &&&Column| sum(a).total_cmp(&sum(b));
+    let (Some(high), Some(low)) = (members.iter().max_by(higher), members.iter().min_by(lower))
+    else {
+        return Vec::new();
+    };
+    let side = |row: usize| {
+        let values = members.iter().filter_map(|column| column.values.get(row).copied());
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+    };
+    let named = |column: &Column, word: &str| {
+        let curve = curve(first, column);
+        Curve { name: format!("{}, {word} of {}", curve.name, members.len()), ..curve }
+    };
+    let sides = (0..high.values.len()).map(side).collect();
+    let band = named(high, words[0]).within(sides);
+    let other = (!std::ptr::eq(*high, *low)).then(|| named(low, words[1]));
+    std::iter::once(band).chain(other).collect()
+}
+
 /// Adds a curve. If it equals another, both become one with both names.
 fn add(curves: &mut Vec<Curve>, curve: Curve) {
     match curves.iter_mut().find(|other| other.points == curve.points) {
@@ -89,12 +140,14 @@ fn add(curves: &mut Vec<Curve>, curve: Curve) {
     }
 }
 
+/// The largest value of a column.
+fn peak(column: &Column) -> f64 {
+    let finite = column.values.iter().copied().filter(|value| value.is_finite());
+    finite.fold(f64::NEG_INFINITY, f64::max)
+}
+
 /// The columns that reach highest, in the order of the table.
 fn highest<'a>(columns: &[&'a Column]) -> Vec<&'a Column> {
-    let peak = |column: &Column| {
-        let finite = column.values.iter().copied().filter(|value| value.is_finite());
-        finite.fold(f64::NEG_INFINITY, f64::max)
-    };
     let mut places: Vec<usize> = (0..columns.len()).collect();
     places.sort_by(|&a, &b| peak(columns[b]).total_cmp(&peak(columns[a])));
     places.truncate(MOST_CURVES);
@@ -116,7 +169,7 @@ mod tests {
         for i in 0..14 {
             table.column(format!("n{i}.T"), "degC", move |time| f64::from(i) + time);
         }
-        let (panels, left_out) = panels(&table.done());
+        let (panels, left_out) = panels(&table.done(), true);
         let named: Vec<&str> = panels.iter().map(|panel| panel.y.name.as_str()).collect();
         assert_eq!((named, left_out), (vec!["heat flow", "temperature"], 2));
         assert_eq!(panels[0].curves[0].points, [(0.0, 0.0), (60.0, 60.0)]);
@@ -131,7 +184,24 @@ mod tests {
         table.column("time", "s", |time| *time);
         table.column("bed.T", "degC", |_| 25.0);
         table.column("air.T", "degC", |_| 25.0);
-        let curves = panels(&table.done()).0.remove(0).curves;
+        let curves = panels(&table.done(), true).0.remove(0).curves;
         assert_eq!((curves.len(), curves[0].name.as_str()), (1, "bed, air"));
+    }
+
+    /// Six lines from one point: the last one is highest at the end, the first one lowest.
+    #[test]
+    fn a_family_is_a_band_with_its_highest_and_lowest_member() {
+        let mut table = Table::of(&[0.0, 60.0]);
+        table.column("time", "s", |time| *time);
+        table.column("air.T", "degC", |_| 25.0);
+        for i in 1..=6_i32 {
+            let slope = f64::from(i - 1);
+            table.column(format!("cell[{i}].T"), "degC", move |time| 1.0 + slope * time);
+        }
+        let curves = panels(&table.done(), true).0.remove(0).curves;
+        let names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).collect();
+        assert_eq!(names, ["cell[6], hottest of 6", "cell[1], coldest of 6", "air"]);
+        assert_eq!(curves[0].spread, [(1.0, 1.0), (1.0, 301.0)]);
+        assert!(curves[1].spread.is_empty());
     }
 }

@@ -28,6 +28,8 @@ pub struct CompareAnswer {
     pub failures: Vec<Failure>,
     /// True if candidates are variants of files.
     pub(super) variants: bool,
+    /// True if large families are shown as one.
+    pub(super) fold: bool,
     /// The words of the command that asked.
     pub(super) command: Vec<String>,
     /// Doubts in the candidates.
@@ -66,7 +68,8 @@ impl CompareAnswer {
     ) -> Self {
         let (rows, ends, failures) = (Vec::new(), Vec::new(), Vec::new());
         let (gathered, command, variants) = (Gathered::default(), Vec::new(), false);
-        let mut comparison = Self { rows, unit, ends, failures, gathered, variants, command };
+        let fold = true;
+        let mut comparison = Self { rows, unit, ends, failures, gathered, variants, fold, command };
         outcomes.for_each(|(loaded, outcome)| comparison.add(loaded, outcome));
         comparison
     }

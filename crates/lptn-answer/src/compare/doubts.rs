@@ -4,6 +4,7 @@ use lptn_netlist::Diagnostic;
 use lptn_report::{Align, Column, decimals, fixed, significant};
 use lptn_study::{Candidate, CompareRow, Scatter};
 
+use super::margins::limits;
 use crate::input::Input;
 use crate::words::spaced;
 
@@ -32,7 +33,7 @@ pub(super) fn look(input: &Input, found: &mut Candidate, file: &str) -> Option<D
 
 /// Columns of uncertainty, none if nothing is uncertain.
 /// Deviations of peak and margins, probability of a broken limit, peak over that of the first.
-pub(super) fn columns(rows: &[CompareRow], names: &[String]) -> Vec<Column> {
+pub(super) fn columns((rows, fold): (&[CompareRow], bool), names: &[String]) -> Vec<Column> {
     let Some(first) = rows.iter().position(|row| row.scatter().is_some()) else {
         return Vec::new();
     };
@@ -42,13 +43,16 @@ pub(super) fn columns(rows: &[CompareRow], names: &[String]) -> Vec<Column> {
     };
     let kelvin = |value: f64| format!("{} K", significant(value, 2));
     let mut columns = vec![column("peak".into(), &|row| Some(kelvin(row.scatter()?.peak)))];
-    for name in CompareRow::limit_names(rows) {
+    for judged in limits(rows, fold) {
+        let (name, limit) = (judged.worst_name(), CompareRow::limit);
         let sd = |row: &CompareRow| {
-            let unit = spaced(&row.limit(name)?.ty.dimension.si_unit());
-            Some(format!("{}{unit}", significant(row.scatter_of(name)?.0, 2)))
+            let worst = judged.worst(row, &limit)?;
+            let unit = spaced(&worst.ty.dimension.si_unit());
+            Some(format!("{}{unit}", significant(row.scatter_of(&worst.name)?.0, 2)))
         };
-        columns.push(column(name.to_owned(), &sd));
-        let broken = |row: &CompareRow| Some(percent(row.scatter_of(name)?.1));
+        columns.push(column(name.clone(), &sd));
+        let broken =
+            |row: &CompareRow| Some(percent(row.scatter_of(&judged.worst(row, &limit)?.name)?.1));
         columns.push(column(format!("P({name} broken)"), &broken));
     }
     if rows.iter().filter(|row| row.scatter().is_some()).count() > 1 {

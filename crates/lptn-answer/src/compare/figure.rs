@@ -4,6 +4,7 @@ use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Moment, Panel};
 use lptn_study::{Candidate, CandidateLimit, CompareRow, HeatOver};
 
+use super::margins::limits;
 use super::{CompareAnswer, page};
 use crate::words::count;
 
@@ -24,15 +25,17 @@ impl CompareAnswer {
         let named = [("peak", peaks), ("steady", steady), ("settled", kelvin(&beside))];
         hot.curves = named.into_iter().filter_map(|(name, points)| dots(name, points)).collect();
         let mut margins = Panel::new(Axis::linear("margin", "K"), candidates());
-        for name in CompareRow::limit_names(&self.rows) {
+        for judged in limits(&self.rows, self.fold) {
+            let name = &judged.name;
             let margin = |limit: &CandidateLimit| {
                 (limit.is_temperature() && !limit.is_open()).then_some(limit.margin)
             };
-            let points = self.points(&|row| row.limit(name).and_then(margin));
+            let points = self.points(&|row| judged.worst(row, &CompareRow::limit).and_then(margin));
             margins.curves.extend(dots(name, points));
             let settled = self.points(&|row| {
                 let of_run = row.candidate()?.heat.over == HeatOver::Run;
-                row.settled_limit(name).filter(|_| of_run).and_then(margin)
+                let worst = judged.worst(row, &CompareRow::settled_limit);
+                worst.filter(|_| of_run).and_then(margin)
             });
             margins.curves.extend(dots(&format!("{name}, settled"), settled));
         }

@@ -5,6 +5,7 @@ mod doubts;
 mod evaluate;
 mod figure;
 mod load;
+mod margins;
 mod page;
 mod variants;
 
@@ -17,6 +18,7 @@ use lptn_study::{SortKey, order};
 use crate::belief::Belief;
 use crate::failure::Failure;
 use crate::listener::Listener;
+use crate::lumping::Detail;
 use evaluate::{doubtful, evaluate_all};
 use load::{believed, jobs, unit};
 
@@ -48,6 +50,8 @@ pub struct CompareQuestion {
     pub temperature_unit: Option<String>,
     /// Threads; `None` for all. The result is the same for any number.
     pub threads: Option<usize>,
+    /// Amount of detail in a table.
+    pub detail: Detail,
     /// The words of the command that asks, for reports.
     pub command: Vec<String>,
 }
@@ -77,6 +81,7 @@ impl CompareQuestion {
         let mut answer = CompareAnswer::of(sorted, unit);
         answer.gathered.add(&Files::new(), &unsure);
         let variants = jobs.iter().any(|(_, variant)| !variant.label().is_empty());
-        Ok(CompareAnswer { variants, command: self.command.clone(), ..answer })
+        let fold = self.detail < Detail::Verbose;
+        Ok(CompareAnswer { variants, fold, command: self.command.clone(), ..answer })
     }
 }

@@ -3,27 +3,25 @@
 use std::io;
 use std::path::Path;
 
-use lptn_network::LimitSeverity;
 use lptn_plot::Figure;
 use lptn_report::{
     Align, Column, Json, Page, Report, Rows, Standing, Text, TextTable, WIDTH, decimals, duration,
     fixed, plain, prefix, significant, stacked,
 };
-use lptn_study::{
-    Candidate, CandidateLimit, CandidateReport, CompareRow, HeatOut, HeatOver, compare_table,
-};
+use lptn_study::{Candidate, CandidateReport, CompareRow, HeatOut, HeatOver, compare_table};
 use lptn_units::Unit;
 use serde_json::Value;
 
+use super::margins::{broken, margins, settled_margins};
 use super::{CompareAnswer, doubts};
 use crate::about;
 use crate::answer::Answer as _;
 use crate::exit::Exit;
-use crate::words::{count, spaced};
-use crate::{messages, over_time, scale};
+use crate::words::count;
+use crate::{families, messages, over_time, scale};
 
 /// Cell of a value that is not known or does not exist.
-const NOTHING: &str = "-";
+pub(super) const NOTHING: &str = "-";
 
 impl CompareAnswer {
     /// The answer in a sentence.
@@ -39,12 +37,12 @@ impl Page for CompareAnswer {
         let mut text = Text::titled(format!("{}{of}", count(rows.len(), "candidate")));
         text.section().table(overview(self));
         let sections = [
-            ("margin to", margins(rows, &CompareRow::limit)),
-            ("settled margin to", settled_margins(rows)),
+            ("margin to", margins((rows, self.fold), &CompareRow::limit)),
+            ("settled margin to", settled_margins((rows, self.fold))),
             ("report", numbers(rows, &self.unit)),
-            ("standard deviation", doubts::columns(rows, &names(rows))),
-            (heat_over(rows), heat(rows)),
-            ("heat by path", shares(rows, &CompareRow::path_names(rows))),
+            ("standard deviation", doubts::columns((rows, self.fold), &names(rows))),
+            (heat_over(rows), heat(rows, self.fold)),
+            ("heat by path", shares((rows, self.fold), CompareRow::path_names(rows))),
         ];
         for (title, columns) in sections.into_iter().filter(|(_, columns)| !columns.is_empty()) {
             for table in tables(title, rows, columns) {
@@ -181,26 +179,6 @@ fn verdict(row: &CompareRow, end: Exit) -> &str {
     }
 }
 
-type OfRow<'a> = dyn Fn(&'a CompareRow, &str) -> Option<&'a CandidateLimit>;
-
-/// A column for each limit: its margin, and when it breaks.
-fn margins<'a>(rows: &'a [CompareRow], limit: &OfRow<'a>) -> Vec<Column> {
-    let column = |name: &&str| {
-        let cell = |row| limit(row, name).map_or_else(|| NOTHING.to_owned(), margin);
-        Column::new(*name, Align::Right, rows.iter().map(cell).collect())
-    };
-    CompareRow::limit_names(rows).iter().map(column).collect()
-}
-
-/// The same over the settled cycle; none if no candidate has both a run and a cycle.
-fn settled_margins(rows: &[CompareRow]) -> Vec<Column> {
-    let of_run = |row: &CompareRow| row.candidate().is_some_and(|c| c.heat.over == HeatOver::Run);
-    match rows.iter().any(|row| row.settled().is_some() && of_run(row)) {
-        true => margins(rows, &CompareRow::settled_limit),
-        false => Vec::new(),
-    }
-}
-
 /// A column for each report that is a number over time.
 fn numbers(rows: &[CompareRow], unit: &Unit) -> Vec<Column> {
     let column = |name: &&str| {
@@ -209,22 +187,6 @@ fn numbers(rows: &[CompareRow], unit: &Unit) -> Vec<Column> {
         Column::new(*name, Align::Right, rows.iter().map(cell).collect())
     };
     CompareRow::report_names(rows).iter().map(column).collect()
-}
-
-fn margin(limit: &CandidateLimit) -> String {
-    if limit.is_open() {
-        return NOTHING.into();
-    }
-    let unit = spaced(&limit.ty.dimension.si_unit());
-    let number = if limit.is_temperature() {
-        fixed(limit.margin, decimals(limit.margin, 3, 1).min(4))
-    } else {
-        significant(limit.margin, 3)
-    };
-    match limit.broken_at {
-        Some(time) => format!("{number}{unit} from {}", duration(time, 3)),
-        None => format!("{number}{unit}"),
-    }
 }
 
 /// Title of amounts of heat: over the run if any candidate has one, else over the cycle.
@@ -239,7 +201,7 @@ fn heat_over(rows: &[CompareRow]) -> &'static str {
 }
 
 /// Columns: all heat that leaves or is stored, the stored part, and the share of each boundary.
-fn heat(rows: &[CompareRow]) -> Vec<Column> {
+fn heat(rows: &[CompareRow], fold: bool) -> Vec<Column> {
     let column = |title: &str, cell: &dyn Fn(&Candidate) -> Option<String>| {
         let cell = |row: &CompareRow| row.candidate().and_then(cell);
         let cells = rows.iter().map(|row| cell(row).unwrap_or_else(|| NOTHING.to_owned()));
@@ -256,19 +218,23 @@ fn heat(rows: &[CompareRow]) -> Vec<Column> {
     if rows.iter().filter_map(CompareRow::candidate).any(|c| c.heat.stored.is_some()) {
         columns.push(column("stored", &|candidate| candidate.heat.stored.map(percent)));
     }
-    columns.extend(shares(rows, &CompareRow::boundary_names(rows)));
+    columns.extend(shares((rows, fold), CompareRow::boundary_names(rows)));
     columns
 }
 
-/// A column for each of these boundaries or paths: its share of all heat.
-fn shares(rows: &[CompareRow], names: &[&str]) -> Vec<Column> {
-    let column = |name: &&str| {
-        let share = |row: &CompareRow| row.share(name).map(percent);
+/// A column for each of these boundaries or paths: its share of all heat, of a large family the sum.
+fn shares((rows, fold): (&[CompareRow], bool), names: Vec<&str>) -> Vec<Column> {
+    let named = |name: &&str| ((*name).to_owned(), 0);
+    let column = |of: families::Row<&str>| {
+        let share = |row: &CompareRow| {
+            let shares: Vec<f64> = of.all().filter_map(|name| row.share(name)).collect();
+            (!shares.is_empty()).then(|| percent(shares.iter().sum()))
+        };
         let cells =
             rows.iter().map(|row| share(row).unwrap_or_else(|| NOTHING.to_owned())).collect();
-        Column::new(*name, Align::Right, cells)
+        Column::new(&of.name, Align::Right, cells)
     };
-    names.iter().map(column).collect()
+    families::folded(names, fold, named, |_| 0.0).into_iter().map(column).collect()
 }
 
 fn percent(share: f64) -> String {
@@ -302,7 +268,9 @@ fn sentence(comparison: &CompareAnswer) -> String {
         Exit::Interrupted => format!("interrupted: not finished: {}", of(Exit::Interrupted)),
         Exit::Input => format!("not read: {}", of(Exit::Input)),
         Exit::Failed => format!("failed: {}", of(Exit::Failed)),
-        Exit::No => format!("limit broken: {}", broken(&comparison.rows, &names)),
+        Exit::No => {
+            format!("limit broken: {}", { broken((&comparison.rows, comparison.fold), &names) })
+        }
         _ if comparison
             .rows
             .iter()
@@ -318,16 +286,4 @@ fn sentence(comparison: &CompareAnswer) -> String {
         _ if comparison.rows.len() == 1 => "the candidate keeps its limits".into(),
         _ => "all candidates keep their limits".into(),
     }
-}
-
-/// "bare breaks steel_hot and skin, fan breaks skin".
-fn broken(rows: &[CompareRow], names: &[String]) -> String {
-    let of_row = |(row, name): (&CompareRow, &String)| {
-        let limits = row.candidate()?.limits.iter();
-        let counts =
-            limits.filter(|limit| limit.broken() && limit.severity == LimitSeverity::Error);
-        let limits: Vec<&str> = counts.map(|limit| limit.name.as_str()).collect();
-        (!limits.is_empty()).then(|| format!("{name} breaks {}", limits.join(" and ")))
-    };
-    rows.iter().zip(names).filter_map(of_row).collect::<Vec<_>>().join(", ")
 }

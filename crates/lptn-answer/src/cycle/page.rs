@@ -33,17 +33,16 @@ impl Page for CycleAnswer {
             .partition(|(c, _)| c.ty.dimension == Dimension::POWER && c.name.contains('.'));
         temperature_section(&mut text, self, temperatures);
         flow_section(&mut text, flows, self.run.folds());
-        other_section(&mut text, self, &others);
+        other_section(&mut text, self, others);
         self.run.over_time(&mut text, "over the cycle");
-        let fold = self.run.folds();
         let limits = self.run.limits();
-        limits::section(&mut text, &self.run.judgement(&limits), fold);
+        limits::section(&mut text, &self.run.judgement(&limits));
         if let Some(of) = solution.balance() {
             let times = Some((task.settings.start, task.settings.stop));
             balance::section(&mut text, network, (of, times));
         }
         found_section(&mut text, self);
-        heat_over(text.section(), solution, (self.period(), task.clock));
+        heat_over(text.section(), (solution, self.run.folds()), (self.period(), task.clock));
         text
     }
 
@@ -113,7 +112,7 @@ fn temperature_section(text: &mut Text, view: &CycleAnswer, rows: Vec<Row<'_>>) 
         .right("start", |row| fixed(row.item.1, digits))
         .right("mean", |row| kelvin(row.item.0.mean))
         .right("min", |row| kelvin(row.item.0.min.0))
-        .right("max", |row| kelvin(row.item.0.max.0))
+        .right("max", |row| row.range(|(c, _)| c.max.0, kelvin))
         .right("at", |row| at(row.item.0))
         .optional()
         .right(format!("swing [{}]", difference(unit)), |row| {
@@ -137,21 +136,23 @@ fn flow_section(text: &mut Text, rows: Vec<Row<'_>>, fold: bool) {
     let table =
         TextTable::of(&rows).left(format!("heat flow [{letter}W]"), |row| row.name.as_str());
     let table = families::members(table, &rows, "largest")
-        .right("mean", |row| watt(row.item.0.mean))
+        .right("mean", |row| row.range(|(c, _)| c.mean, watt))
         .right("min", |row| watt(row.item.0.min.0))
         .right("max", |row| watt(row.item.0.max.0));
     some_of(text, table, (all, "the largest first; --select 'NAME.Q' shows others"));
 }
 
 /// Signals and reports.
-fn other_section(text: &mut Text, view: &CycleAnswer, rows: &[Row<'_>]) {
+fn other_section(text: &mut Text, view: &CycleAnswer, rows: Vec<Row<'_>>) {
     let unit = &view.run.task.unit;
     let number = |c: &ColumnSeen, value: f64| significant(c.shown(value, unit), 5);
-    let table = TextTable::of(rows)
-        .left("column", |(c, _)| format!("{} [{}]", c.name, symbol(&c.unit(unit))))
-        .right("mean", |(c, _)| number(c, c.mean))
-        .right("min", |(c, _)| number(c, c.min.0))
-        .right("max", |(c, _)| number(c, c.max.0));
+    let rows = families::folded(rows, view.run.folds(), named, |(c, _)| c.max.0);
+    let table = TextTable::of(&rows)
+        .left("column", |row| format!("{} [{}]", row.name, symbol(&row.item.0.unit(unit))));
+    let table = families::members(table, &rows, "highest")
+        .right("mean", |row| number(row.item.0, row.item.0.mean))
+        .right("min", |row| number(row.item.0, row.item.0.min.0))
+        .right("max", |row| row.range(|(c, _)| c.max.0, |max| number(row.item.0, max)));
     some_of(text, table, (rows.len(), ""));
 }
 

@@ -24,6 +24,8 @@ pub struct Columns {
     pub select: Vec<String>,
     /// The unit of temperatures; `None` for that of the file.
     pub temperature_unit: Option<String>,
+    /// True if large families of results are bands.
+    pub families: bool,
     /// Statements about the form of CSV files.
     pub csv: CsvOptions,
 }
@@ -50,7 +52,7 @@ impl Source {
     /// A file that cannot be read, and columns that it does not have.
     pub fn of_record(path: &Path, wanted: &Columns) -> Result<Self, Failure> {
         let (table, doubts) = wanted.of(path)?;
-        let mut figure = drawn(&table, &stem(path));
+        let mut figure = drawn(&table, &stem(path), false);
         let curves = figure.panels.iter_mut().flat_map(|panel| &mut panel.curves);
         curves.for_each(|curve| curve.look = Look::Dots);
         Ok(Self { name: stem(path), path: path.into(), measured: true, figure, doubts })
@@ -66,20 +68,21 @@ impl Source {
             return Err(no_result(path));
         }
         let (table, _) = wanted.of(&result)?;
-        let mut figure = drawn(&table, &stem(path));
+        let mut figure = drawn(&table, &stem(path), wanted.families && wanted.select.is_empty());
         let moments = events(&path.join(EVENTS));
         figure.panels.iter_mut().for_each(|panel| panel.moments.clone_from(&moments));
         let doubts = (Files::new(), not_as_written(path, &result).into_iter().collect());
         Ok(Self { name: stem(path), path: path.into(), measured: false, figure, doubts })
     }
 
-    /// A run of a netlist; its doubts are those of the answer.
-    pub fn of_run(path: &Path, answer: &RunAnswer) -> Self {
+    /// A run of a netlist; its doubts are those of the answer. `families` is true if large
+    /// families may be bands.
+    pub fn of_run(path: &Path, answer: &RunAnswer, families: bool) -> Self {
         Self {
             name: answer.task.input.text.stem.clone(),
             path: path.into(),
             measured: false,
-            figure: answer.figure(),
+            figure: answer.drawn(families && answer.folds()),
             doubts: (Files::new(), Vec::new()),
         }
     }
@@ -126,8 +129,8 @@ fn stem(path: &Path) -> String {
     path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-fn drawn(table: &Table, title: &str) -> Figure {
-    let (panels, left_out) = panels(table);
+fn drawn(table: &Table, title: &str, fold: bool) -> Figure {
+    let (panels, left_out) = panels(table, fold);
     let note = match left_out {
         0 => String::new(),
         _ => format!("{left_out} lower curves are not shown; --select chooses"),

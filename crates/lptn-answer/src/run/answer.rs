@@ -221,7 +221,7 @@ impl RunAnswer {
     /// The limits, and how they are shown.
     pub fn judgement<'b>(&'b self, limits: &'b [LimitResult]) -> limits::Judgement<'b> {
         let (netlist, unit) = (&self.task.input.netlist, &self.task.unit);
-        limits::Judgement { netlist, unit, clock: self.task.clock, limits }
+        limits::Judgement { netlist, unit, clock: self.task.clock, limits, fold: self.folds() }
     }
 
     /// The verdict on the limits.

@@ -6,6 +6,7 @@ use lptn_solve::{Event, EventKind, Solution};
 use lptn_study::SiValue;
 use serde_json::{Value, json};
 
+use crate::families::{self, Row};
 use crate::words::MOST_NODES;
 
 /// Most events that are shown.
@@ -82,7 +83,7 @@ impl Use {
 /// Nothing if nothing can switch.
 pub(super) fn section(
     text: &mut Text,
-    solution: &Solution,
+    (solution, fold): (&Solution, bool),
     (start, end): (f64, f64),
     clock: Clock,
 ) {
@@ -91,27 +92,32 @@ pub(super) fn section(
         return;
     }
     text.section();
-    let ids = network.control_ids().take(MOST_NODES);
-    let uses: Vec<Use> = ids.map(|id| Use::of(solution, id, (start, end))).collect();
+    let uses = network.control_ids().map(|id| Use::of(solution, id, (start, end))).collect();
+    let starts = |of: &Use| of.starts as f64;
+    let mut uses: Vec<Row<Use>> = families::folded(uses, fold, |of| (of.name.clone(), 0), starts);
+    let all = uses.len();
+    uses.truncate(MOST_NODES);
     if !uses.is_empty() {
         text.table(controls(&uses, clock));
     }
-    if uses.len() < network.controls().len() {
-        text.line(format!("{} of {} are shown", uses.len(), network.controls().len()));
+    if uses.len() < all {
+        text.line(format!("{} of {all} are shown", uses.len()));
     }
     text.labelled("events: ", first(solution, clock));
 }
 
-fn controls(uses: &[Use], clock: Clock) -> TextTable {
+fn controls(uses: &[Row<Use>], clock: Clock) -> TextTable {
     let percent =
         |share: Option<f64>| share.map_or("-".into(), |s| format!("{} %", fixed(100.0 * s, 1)));
-    TextTable::of(uses)
-        .left("control", |u| u.name.as_str())
-        .right("starts", |u| u.starts.to_string())
-        .right("stops", |u| u.stops.to_string())
-        .right("mean period", |u| u.period.map_or("-".into(), |period| clock.text(period, 4)))
-        .right("on for", |u| percent(u.duty))
-        .right("at the end", |u| if u.on { "on" } else { "off" })
+    let period = |of: &Use| of.period.map_or("-".into(), |period| clock.text(period, 4));
+    let starts = |of: &Use| of.starts as f64;
+    let table = TextTable::of(uses).left("control", |row| row.name.as_str());
+    families::members(table, uses, "busiest")
+        .right("starts", |row| row.range(starts, |starts| fixed(starts, 0)))
+        .right("stops", |row| row.item.stops.to_string())
+        .right("mean period", |row| period(&row.item))
+        .right("on for", |row| percent(row.item.duty))
+        .right("at the end", |row| if row.item.on { "on" } else { "off" })
         .into()
 }
 

@@ -14,11 +14,18 @@ use crate::words::count;
 pub const MOST_EVENTS: usize = 24;
 
 impl RunAnswer {
-    /// The selected columns over time.
+    /// The selected columns over time; large families are bands if tables have them in one row.
     pub fn figure(&self) -> Figure {
+        self.drawn(self.folds())
+    }
+
+    /// The same; `families` is true if large families are bands.
+    pub fn drawn(&self, families: bool) -> Figure {
         let (network, unit) = (self.solution.network(), &self.task.unit);
-        let (mut panels, left_out) = panels(&self.table);
-        let undrawn = limits::mark(&mut panels, network, unit);
+        // the bands of uncertain results are of single curves
+        let fold = families && self.uncertainty().is_none();
+        let (mut panels, left_out) = panels(&self.table, fold);
+        let undrawn = limits::mark(&mut panels, network, unit, families);
         let moments = moments(network, self.solution.events());
         for panel in &mut panels {
             panel.moments.clone_from(&moments);
@@ -47,8 +54,7 @@ impl RunAnswer {
         if events > self.table.rows() {
             notes.push("more happens between rows than they show: --every writes more".into());
         }
-        let (network, unit) = (self.solution.network(), &self.task.unit);
-        notes.extend(limits::broken(network, &self.limits(), unit));
+        notes.extend(limits::broken(&self.judgement(&self.limits())));
         notes.extend(self.ended_early());
         if self.uncertainty().is_some() {
             notes.push("bands of 95 %".into());

@@ -15,10 +15,11 @@ use super::task::NoSteady;
 use super::{events, state, uncertainty, windows};
 use crate::balance;
 use crate::bound::{not_bounded, weak_ledger};
+use crate::families::Row;
 use crate::lumping::Detail;
 use crate::messages;
 use crate::steady::others;
-use crate::words::MOST_NODES;
+use crate::words::{MOST_NODES, symbol};
 use crate::{families, limits, lumping, over_time, scale};
 
 /// Characters of a curve.
@@ -39,21 +40,24 @@ impl Page for RunAnswer {
         if !nodes.is_empty() {
             text.section().table(temperatures(self, &nodes));
         }
-        limits::section(&mut text, &self.judgement(&self.limits()), self.folds());
+        limits::section(&mut text, &self.judgement(&self.limits()));
         if let Some(study) = self.uncertainty() {
-            uncertainty::text::sections(&mut text, network, (study, &self.task.unit));
+            let of = (network, self.folds());
+            uncertainty::text::sections(&mut text, of, (study, &self.task.unit));
         }
-        events::section(&mut text, &self.solution, span, self.task.clock);
+        events::section(&mut text, (&self.solution, self.folds()), span, self.task.clock);
         columns(self, &mut text);
         let length = self.task.clock.text(span.1 - span.0, 4);
         self.over_time(&mut text, &format!("over {length}"));
-        windows::sections(&mut text, &self.solution, (&self.task.unit, self.task.clock));
+        let shown = (&self.task.unit, self.task.clock);
+        windows::sections(&mut text, (&self.solution, self.folds()), shown);
         let uncertain = |study| uncertainty::text::notes(network, study, &self.task.unit);
         text.section().notes(self.uncertainty().into_iter().flat_map(uncertain));
         text.notes(notes(self, &nodes)).section();
         // if a run breaks off, the integrals and the state are not those of one time
         if !matches!(self.solution.end(), RunStatus::Failed(_)) {
-            heat_over(&mut text, &self.solution, (span.1 - span.0, self.task.clock));
+            let over = (span.1 - span.0, self.task.clock);
+            heat_over(&mut text, (&self.solution, self.folds()), over);
             if let Some(of) = self.solution.balance() {
                 balance::section(&mut text, network, (of, Some(span)));
             }
@@ -150,7 +154,7 @@ fn temperatures(of: &RunAnswer, nodes: &[NodeSummary]) -> TextTable {
     families::members(table, &rows, "hottest")
         .right("start", |row| number(row.item.start))
         .right(end.as_str(), |row| number(row.item.end))
-        .right("peak", |row| number(row.item.peak.0))
+        .right("peak", |row| row.range(|node| node.peak.0, number))
         .right("at", |row| clock.text(row.item.peak.1, 3))
         .optional()
         .right("steady", |row| row.item.steady.map_or("-".into(), number))
@@ -176,21 +180,29 @@ fn columns(of: &RunAnswer, text: &mut Text) {
         is_report(name) || is_state(name) || is_of_grid(name) || (of.task.chosen && !is_node(name))
     };
     let all = of.table.columns().get(1..).unwrap_or_default();
-    let shown: Vec<_> = all.iter().filter(|column| wanted(&column.name)).take(MOST_NODES).collect();
-    if shown.is_empty() {
+    let shown = all.iter().filter(|column| wanted(&column.name)).collect();
+    type Of<'a> = &'a lptn_solve::Column;
+    let last = |column: &Of<'_>| column.values.last().copied().unwrap_or(f64::NAN);
+    let named = |column: &Of<'_>| (column.name.clone(), 0);
+    let mut rows: Vec<Row<Of<'_>>> = families::folded(shown, of.folds(), named, last);
+    rows.truncate(MOST_NODES);
+    if rows.is_empty() {
         return;
     }
-    type Of<'a> = &'a lptn_solve::Column;
-    let number = |column: Of<'_>, value: Option<&f64>| {
+    let number = |column: Of<'_>, value: f64| {
         let (low, high) = range(column.values.iter().copied());
         let digits = decimals(low.abs().max(high.abs()), 4, 1);
-        value.map_or("-".into(), |&value| fixed(value, digits))
+        if value.is_nan() { "-".into() } else { fixed(value, digits) }
     };
-    let table = TextTable::of(&shown)
-        .left("column", |c| c.header())
-        .right("start", |c| number(c, c.values.first()))
-        .right(of.task.clock.text(reached(of), 4), |c| number(c, c.values.last()))
-        .left("", |c| sparkline(of.solution.times(), &c.values, CURVE, 0.0))
+    let first = |column: &Of<'_>| column.values.first().copied().unwrap_or(f64::NAN);
+    let table = TextTable::of(&rows)
+        .left("column", |row| format!("{} [{}]", row.name, symbol(&row.item.unit)));
+    let table = families::members(table, &rows, "largest")
+        .right("start", |row| number(row.item, first(&row.item)))
+        .right(of.task.clock.text(reached(of), 4), |row| {
+            row.range(last, |value| number(row.item, value))
+        })
+        .left("", |row| sparkline(of.solution.times(), &row.item.values, CURVE, 0.0))
         .optional();
     text.section().table(table);
 }
@@ -273,7 +285,11 @@ fn over(length: f64, clock: Clock) -> String {
 }
 
 /// The heat of a run of this length in s, and the residual of its energy balance.
-pub(crate) fn heat_over(text: &mut Text, solution: &Solution, (length, clock): (f64, Clock)) {
+pub(crate) fn heat_over(
+    text: &mut Text,
+    (solution, fold): (&Solution, bool),
+    (length, clock): (f64, Clock),
+) {
     let (network, ledger) = (solution.network(), solution.ledger());
     let heat = |id: lptn_network::SourceId| &ledger.sources[id.index()];
     let sources = network
@@ -282,7 +298,7 @@ pub(crate) fn heat_over(text: &mut Text, solution: &Solution, (length, clock): (
     let boundaries =
         network.boundaries().iter().map(|b| Cow::from(&b.name)).zip(&ledger.boundaries);
     let flow = |(name, &heat): (Cow<'_, str>, &f64)| Flow { name: name.into_owned(), heat };
-    let mut flows: Vec<Flow> = sources.chain(boundaries).map(flow).collect();
+    let mut flows = families::sums(sources.chain(boundaries).map(flow).collect(), fold);
     // streams pass heat to each other: only their sum is meaningful
     flows.push(Flow { name: "streams".into(), heat: ledger.streams.iter().sum() });
     for (of, &heat) in network.state_capacities().iter().zip(&ledger.masses) {

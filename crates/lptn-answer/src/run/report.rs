@@ -75,8 +75,7 @@ impl RunAnswer {
         }
         claims.push(about::lumps(&self.lumping));
         claims.extend(self.ended_early().map(|why| Claim::checked(false, why)));
-        let (network, unit) = (self.solution.network(), &self.task.unit);
-        claims.extend(limits::claims(network, &self.limits(), unit));
+        claims.extend(limits::claims(&self.judgement(&self.limits())));
         claims
     }
 

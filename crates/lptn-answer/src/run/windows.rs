@@ -6,39 +6,48 @@ use lptn_study::SiValue;
 use lptn_units::Unit;
 use serde_json::{Map, Value, json};
 
+use crate::families::{self, Row};
 use crate::words::{MOST_NODES, symbol};
 use crate::{over_time, scale};
 
 /// A section for each window.
-pub(super) fn sections(text: &mut Text, solution: &Solution, units: (&Unit, Clock)) {
+pub(super) fn sections(
+    text: &mut Text,
+    (solution, fold): (&Solution, bool),
+    units: (&Unit, Clock),
+) {
     for window in solution.windows() {
-        section(text, window, units);
+        section(text, (window, fold), units);
         let numbers = (solution.network(), window.reports.as_slice());
         over_time::section(text, numbers, (&format!("over {}", window.name), units.0));
     }
 }
 
-fn section(text: &mut Text, window: &WindowSeen, (unit, clock): (&Unit, Clock)) {
-    let shown = &window.columns[..window.columns.len().min(MOST_NODES)];
+fn section(text: &mut Text, (window, fold): (&WindowSeen, bool), (unit, clock): (&Unit, Clock)) {
+    let named = |c: &&ColumnSeen| (c.name.clone(), 0);
+    let columns = window.columns.iter().collect();
+    let mut rows: Vec<Row<&ColumnSeen>> = families::folded(columns, fold, named, |c| c.max.0);
+    let all = rows.len();
+    rows.truncate(MOST_NODES);
     let number = |column: &ColumnSeen, value: f64| {
         let [low, high] = [column.min.0, column.max.0].map(|value| column.shown(value, unit));
         fixed(column.shown(value, unit), decimals(low.abs().max(high.abs()), 4, 1))
     };
     let title =
         format!("{}: {} to {}", window.name, clock.text(window.from, 4), clock.text(window.to, 4));
-    let table = TextTable::of(shown)
-        .left(title, |c| format!("{} [{}]", c.name, symbol(&c.unit(unit))))
-        .right("mean", |c| number(c, c.mean))
-        .right("min", |c| number(c, c.min.0))
-        .right("at", |c| clock.text(c.min.1, 4))
+    let table = TextTable::of(&rows)
+        .left(title, |row| format!("{} [{}]", row.name, symbol(&row.item.unit(unit))));
+    let table = families::members(table, &rows, "highest")
+        .right("mean", |row| number(row.item, row.item.mean))
+        .right("min", |row| number(row.item, row.item.min.0))
+        .right("at", |row| clock.text(row.item.min.1, 4))
         .optional()
-        .right("max", |c| number(c, c.max.0))
-        .right("at", |c| clock.text(c.max.1, 4))
+        .right("max", |row| row.range(|c| c.max.0, |max| number(row.item, max)))
+        .right("at", |row| clock.text(row.item.max.1, 4))
         .optional();
     text.section().table(table);
-    if shown.len() < window.columns.len() {
-        let all = window.columns.len();
-        text.line(format!("{} of {all} are shown, --select shows others", shown.len()));
+    if rows.len() < all {
+        text.line(format!("{} of {all} are shown, --select shows others", rows.len()));
     }
 }
 

@@ -114,7 +114,7 @@ impl SteadyAnswer {
     /// The limits, and how they are shown.
     pub fn judgement(&self) -> Judgement<'_> {
         let (netlist, unit, limits) = (&self.input.netlist, &self.unit, &self.limits);
-        Judgement { netlist, unit, clock: Clock::default(), limits }
+        Judgement { netlist, unit, clock: Clock::default(), limits, fold: self.fold }
     }
 
     /// Doubts that a table has as notes: inputs that change, other steady states.

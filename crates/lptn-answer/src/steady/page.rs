@@ -14,7 +14,7 @@ use serde_json::{Map, json};
 use crate::about::{self, Known};
 use crate::balance;
 use crate::limits;
-use crate::words::{difference, largest, some_of};
+use crate::words::{difference, largest, some_of, symbol};
 use crate::{families, ranges, scale};
 
 use super::SteadyAnswer;
@@ -56,7 +56,8 @@ impl Row {
             Of::Grid(_) => 2,
             Of::Heat(HeatOf::Source(_)) => 3,
             Of::Heat(HeatOf::Boundary(_)) => 4,
-            Of::Heat(_) => 5,
+            Of::Heat(HeatOf::ReceivedFrom(_)) => 5,
+            Of::Heat(_) => 6,
         };
         (self.label(network), kind)
     }
@@ -167,11 +168,11 @@ impl SteadyAnswer {
         let mut rows = families::folded(rows, self.fold, |r| r.family(network), |r| r.value);
         let all = largest(&mut rows, |row| row.item.value);
         let kelvin = |r: &Row| fixed((r.value - coldest.1) / self.unit.scale, digits);
-        let celsius = |r: &Row| fixed(self.unit.from_si(r.value), digits);
+        let celsius = |value: f64| fixed(self.unit.from_si(value), digits);
         let over = format!("over {} [{}]", shortened(&coldest.0, 24), difference(&self.unit));
         let table = TextTable::of(&rows).left("temperature", |row| row.name.as_str());
         let table = families::members(table, &rows, "hottest")
-            .right(format!("T [{}]", self.unit.text), |row| celsius(&row.item))
+            .right(format!("T [{}]", self.unit.text), |row| row.range(|r| r.value, celsius))
             .right(over, |row| kelvin(&row.item))
             .left("", |row| row.item.words(network))
             .optional();
@@ -186,9 +187,10 @@ impl SteadyAnswer {
         let all = largest(&mut rows, |row| size(&row.item));
         let (scale, letter) = prefix(most);
         let digits = decimals(most / scale, 4, 0);
+        let watt = |value: f64| fixed(value / scale, digits);
         let table = TextTable::of(&rows).left("heat flow", |row| row.name.as_str());
         let table = families::members(table, &rows, "largest")
-            .right(format!("Q [{letter}W]"), |row| fixed(row.item.value / scale, digits))
+            .right(format!("Q [{letter}W]"), |row| row.range(|r| r.value, watt))
             .left("", |row| row.item.words(network))
             .optional();
         some_of(text, table, (all, "the largest first; --select 'NAME.Q' shows others"));
@@ -200,14 +202,19 @@ impl SteadyAnswer {
         let of_item =
             |name: &str| name.rsplit_once('.').is_some_and(|(item, _)| network.item(item).is_ok());
         let shown: Vec<_> = self.table.columns().iter().filter(|c| !of_item(&c.name)).collect();
-        if !shown.is_empty() {
-            let table = TextTable::of(&shown);
-            let value = |c: &&lptn_solve::Column| match c.values[0] {
-                value if value.is_finite() => significant(value, 5),
-                // a number over time that grows without end
-                _ => "-".into(),
-            };
-            text.section().table(table.left("column", |c| c.header()).right("", value));
+        let named = |column: &&lptn_solve::Column| (column.name.clone(), 0);
+        let value = |column: &&lptn_solve::Column| column.values[0];
+        let rows = families::folded(shown, self.fold, named, value);
+        let number = |value: f64| match value.is_finite() {
+            true => significant(value, 5),
+            // a number over time that grows without end
+            false => "-".into(),
+        };
+        if !rows.is_empty() {
+            let table = TextTable::of(&rows)
+                .left("column", |row| format!("{} [{}]", row.name, symbol(&row.item.unit)));
+            let table = families::members(table, &rows, "largest");
+            text.section().table(table.right("", |row| row.range(value, number)));
         }
     }
 
@@ -222,7 +229,7 @@ impl SteadyAnswer {
         let laws = about::laws(network, &self.steady.trust.out_of_range);
         let books = format!("heat in and heat out differ by {books} of the heat exchanged");
         let own = [Claim::checked(true, books)].into_iter().chain(laws);
-        let claims = own.chain(limits::claims(network, &self.limits, unit)).collect();
+        let claims = own.chain(limits::claims(&self.judgement())).collect();
         let states = vec![("Steady state".to_owned(), self.steady.state.clone())];
         about::about(&self.input, Known { claims, states, unit: Some(unit), sensitivities: None })
     }
@@ -240,7 +247,7 @@ impl Page for SteadyAnswer {
         self.nodes(self.temperatures(inside).into_iter().filter(keep).collect(), &mut text);
         self.heat_flows(self.flows(inside).into_iter().filter(keep).collect(), &mut text);
         self.others(&mut text);
-        limits::section(&mut text, &self.judgement(), self.fold);
+        limits::section(&mut text, &self.judgement());
         if let Some(of) = &self.balance {
             balance::section(&mut text, network, (of, None));
         }

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::definition::{Template, taken_twice};
 use super::plan::{MOST_INSTANCES, Plan, of_instance, plan};
-use super::structure::{Connection, Inside, Instance, Structure, Used};
+use super::structure::{Connection, Copied, INDEX, Inside, Instance, Structure, Used};
 use lptn_data::{CopyId, Diagnostic, Files, Span};
 
 use crate::format::{NetlistFormat, Role};
@@ -87,7 +87,7 @@ impl<'r, 'w> Maker<'r, 'w> {
                 .unwrap_or(1)
                 .saturating_mul(self.sizes.get(plan.position).copied().unwrap_or(1))
         });
-        let room = MOST_INSTANCES - self.structure.instances.len().min(MOST_INSTANCES);
+        let room = MOST_INSTANCES - self.structure.instances.min(MOST_INSTANCES);
         if made > room && self.problems.len() == before {
             self.problems.push(too_many(&entry));
         }
@@ -108,8 +108,11 @@ impl<'r, 'w> Maker<'r, 'w> {
             };
             let copy = self.files.add_copy(path.clone(), entry.key_span.clone());
             let ports = self.ports((&plan, number), line);
-            self.structure.instances.push(Instance { path: path.clone(), inside, ports });
-            self.parameters((&plan, number), &path, copy);
+            let index = plan.count.map(|_| number + 1);
+            let instance = Instance { path: path.clone(), inside, ports, index };
+            self.structure.copies.push(Copied::Instance(instance));
+            self.structure.instances += 1;
+            self.parameters((&plan, number), (&path, &entry.key_span), copy);
             for (section, table) in &plan.template.sections {
                 table
                     .entries
@@ -180,15 +183,28 @@ impl<'r, 'w> Maker<'r, 'w> {
     }
 
     /// The parameters of an instance: those that are set, and the others as the template has them.
-    fn parameters(&mut self, (plan, number): (&Plan<'_>, usize), path: &str, copy: CopyId) {
+    fn parameters(
+        &mut self,
+        (plan, number): (&Plan<'_>, usize),
+        (path, line): (&str, &Span),
+        copy: CopyId,
+    ) {
+        let set: Vec<_> = plan.set.iter().map(|(_, values)| of_instance(values, number)).collect();
+        let counts = plan.count.is_some() && set.iter().flatten().any(|value| mentions(value));
+        let named = || (path.to_owned(), line.clone());
+        let own = counts.then(|| self.structure.copy_of(self.files, named(), number + 1));
         for parameter in &plan.template.parameters {
             let (written, key) = (parameter.entry, format!("{path}.{}", parameter.entry.key));
-            let given = plan.set.iter().find(|(given, _)| given.entry.key == written.key);
-            let value = given.and_then(|(_, values)| of_instance(values, number));
+            let given = plan.set.iter().position(|(given, _)| given.entry.key == written.key);
+            let value = given.and_then(|given| set.get(given).copied().flatten());
             if let (Some(ty), true) = (parameter.ty, value.is_some()) {
                 self.structure.types.insert(key.clone(), (ty, written.value.span.clone()));
             }
-            let value = value.cloned().unwrap_or_else(|| copied_value(&written.value, copy));
+            let value = match (value, own) {
+                (Some(value), Some(own)) if mentions(value) => copied_value(value, own),
+                (Some(value), _) => value.clone(),
+                (None, _) => copied_value(&written.value, copy),
+            };
             let key_span = written.key_span.for_copy(copy);
             self.push(
                 (ValueKind::Parameter.section(), &written.key_span),
@@ -237,8 +253,18 @@ fn elements(raw: &RawNetlist, format: &NetlistFormat) -> HashMap<String, (String
     named.collect()
 }
 
+/// True if a value may read the number of its instance.
+pub(super) fn mentions(value: &RawValue) -> bool {
+    match &value.kind {
+        RawKind::String { text, .. } => text.contains(INDEX),
+        RawKind::Array(list) => list.iter().any(mentions),
+        RawKind::Table(table) => table.entries.iter().any(|entry| mentions(&entry.value)),
+        _ => false,
+    }
+}
+
 /// An entry as it is read for an instance.
-fn copied(entry: &RawEntry, copy: CopyId) -> RawEntry {
+pub(super) fn copied(entry: &RawEntry, copy: CopyId) -> RawEntry {
     RawEntry {
         key: entry.key.clone(),
         key_span: entry.key_span.for_copy(copy),

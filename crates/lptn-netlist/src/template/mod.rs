@@ -29,8 +29,8 @@ use crate::raw::RawNetlist;
 use definition::{OPEN_PARAMETER, Template};
 use instance::Maker;
 
-pub(crate) use inside::{by_port, in_own_words, outside};
-pub(crate) use structure::Structure;
+pub(crate) use inside::{by_port, in_own_words, no_index, outside, two_meanings};
+pub(crate) use structure::{INDEX, Structure};
 pub(crate) use wrong_path::wrong_path;
 
 /// `[template.NAME]`; its contents are read separately.
@@ -114,9 +114,9 @@ pub(crate) fn expand(files: &mut Files, mut raw: RawNetlist, format: &NetlistFor
     let sizes = nesting::check(&mut templates, &mut problems);
     let mut maker = Maker::new((files, format), (&templates, &sizes), &mut raw);
     maker.top(&uses);
-    let (structure, found, used) = maker.finish();
+    let (mut structure, found, used) = maker.finish();
     problems.extend(found);
-    problems.extend(pattern::expand(&mut raw, &structure));
+    problems.extend(pattern::expand(files, &mut raw, &mut structure));
     problems
         .extend(unused(&templates, &used).filter(|d| d.place().is_some_and(|at| at.file == main)));
     if any_error(&problems) {

@@ -3,9 +3,10 @@
 
 use std::ops::Range;
 
-use lptn_data::{Diagnostic, Span};
+use lptn_data::{Diagnostic, Files, Span};
 use lptn_units::Expression;
 
+use super::instance::{copied, mentions};
 use super::plan::BEFORE;
 use super::structure::Structure;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
@@ -14,8 +15,12 @@ use crate::section::PATHS;
 const STAR: &str = "[*]";
 
 /// Replaces a limit of all instances by one for each, and a heated pattern by its instances.
-pub(super) fn expand(raw: &mut RawNetlist, structure: &Structure) -> Vec<Diagnostic> {
-    let mut work = Patterns { structure, problems: Vec::new() };
+pub(super) fn expand(
+    files: &mut Files,
+    raw: &mut RawNetlist,
+    structure: &mut Structure,
+) -> Vec<Diagnostic> {
+    let mut work = Patterns { files, structure, problems: Vec::new() };
     for section in &mut raw.top.entries {
         let RawKind::Table(table) = &mut section.value.kind else { continue };
         if section.key == "limit" {
@@ -42,7 +47,8 @@ fn plain(pattern: &str) -> String {
 }
 
 struct Patterns<'s> {
-    structure: &'s Structure,
+    files: &'s mut Files,
+    structure: &'s mut Structure,
     problems: Vec<Diagnostic>,
 }
 
@@ -84,7 +90,7 @@ impl Patterns<'_> {
         let each = all.unwrap_or_default().into_iter().map(|indices| {
             let list: Vec<String> = indices.iter().map(usize::to_string).collect();
             let key = format!("{}[{}]", entry.key, list.join(","));
-            with_of(&entry, key, filled(text, &names, &indices))
+            self.numbered(with_of(&entry, key, filled(text, &names, &indices)), &indices)
         });
         each.collect()
     }
@@ -113,7 +119,18 @@ impl Patterns<'_> {
         let behind = given.iter().any(|(pattern, _)| pattern.contains(BEFORE));
         let each = all.unwrap_or_default().into_iter();
         let each = each.filter(|indices| !behind || indices.iter().all(|index| *index > 1));
-        each.map(|indices| between(&entry, &indices)).collect()
+        each.map(|indices| self.numbered(between(&entry, &indices), &indices)).collect()
+    }
+
+    /// An element of one instance, whose values may read its number.
+    fn numbered(&mut self, entry: RawEntry, indices: &[usize]) -> RawEntry {
+        let [index] = *indices else { return entry };
+        if !mentions(&entry.value) {
+            return entry;
+        }
+        let named = (entry.key.clone(), entry.key_span.clone());
+        let copy = self.structure.copy_of(self.files, named, index);
+        copied(&entry, copy)
     }
 
     /// `into = "planet[*].gear"` shares the heat equally; `false` after an error.

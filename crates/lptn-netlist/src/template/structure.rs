@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use lptn_data::{CopyId, Span};
+use lptn_data::{CopyId, Files, Span};
 use lptn_units::Type;
 
 use crate::raw::{RawEntry, RawValue};
@@ -12,8 +12,10 @@ use crate::raw::{RawEntry, RawValue};
 pub(crate) struct Structure {
     /// The names inside each template that is used.
     pub(super) insides: Vec<Inside>,
-    /// The instances, by [`CopyId`].
-    pub(super) instances: Vec<Instance>,
+    /// Texts that are read once more, by [`CopyId`].
+    pub(super) copies: Vec<Copied>,
+    /// Number of instances.
+    pub(super) instances: usize,
     /// Every use by its full name, without index.
     pub(super) uses: BTreeMap<String, Used>,
     /// The lines of the uses that connect ports.
@@ -43,7 +45,26 @@ pub(super) struct Instance {
     pub(super) inside: usize,
     /// The full name of the target of each port.
     pub(super) ports: Vec<String>,
+    /// Its number, if its use has a `count`.
+    pub(super) index: Option<usize>,
 }
+
+/// A text that is read once more.
+#[derive(Clone, Debug)]
+pub(super) enum Copied {
+    /// The text of a template, for an instance.
+    Instance(Instance),
+    /// A value of the text around it, for one of several instances.
+    Value {
+        /// The text that it belongs to.
+        around: CopyId,
+        /// The number of the instance.
+        index: usize,
+    },
+}
+
+/// The name of the number of an instance in expressions.
+pub(crate) const INDEX: &str = "index";
 
 /// A `[use.NAME]`.
 #[derive(Clone, Debug)]
@@ -77,8 +98,33 @@ pub(super) fn root(path: &str) -> &str {
 
 impl Structure {
     fn instance(&self, copy: CopyId) -> Option<(&Instance, &Inside)> {
-        let instance = self.instances.get(copy.index()?)?;
-        Some((instance, self.insides.get(instance.inside)?))
+        match self.copies.get(copy.index()?)? {
+            Copied::Instance(instance) => Some((instance, self.insides.get(instance.inside)?)),
+            Copied::Value { around, .. } => self.instance(*around),
+        }
+    }
+
+    /// The number of the instance that a place is read for; `None` if there is none, or if `index`
+    /// is a name of the template.
+    pub(crate) fn index_at(&self, place: &Span) -> Option<usize> {
+        let index = match self.copies.get(place.copy.index()?)? {
+            Copied::Instance(instance) => instance.index?,
+            Copied::Value { index, .. } => *index,
+        };
+        self.meaning(place, INDEX).is_none().then_some(index)
+    }
+
+    /// Notes that a value is read for one of several instances: `named` has the name of the
+    /// instance, and the line of the value.
+    pub(super) fn copy_of(
+        &mut self,
+        files: &mut Files,
+        named: (String, Span),
+        index: usize,
+    ) -> CopyId {
+        let around = named.1.copy;
+        self.copies.push(Copied::Value { around, index });
+        files.add_copy(named.0, named.1)
     }
 
     /// The full name of a name at `place`, if that is inside a template and the name belongs to it.
@@ -143,11 +189,16 @@ impl Structure {
 
     /// The full names of all instances of a family, `cell[*].T`, in order; `None` if it is none.
     pub(crate) fn members(&self, place: &Span, pattern: &str) -> Option<Vec<String>> {
-        if !pattern.contains("[*]") {
+        pattern.contains("[*]").then(|| self.all_of(&self.resolve(place, pattern)))?
+    }
+
+    /// The same for the full name of a family.
+    pub(crate) fn all_of(&self, full: &str) -> Option<Vec<String>> {
+        if !full.contains("[*]") {
             return None;
         }
         let mut found = vec![String::new()];
-        for part in self.resolve(place, pattern).split('.') {
+        for part in full.split('.') {
             found = match part.strip_suffix("[*]") {
                 None => found.iter().map(|before| format!("{before}{part}.")).collect(),
                 Some(name) => {

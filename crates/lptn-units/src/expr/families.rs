@@ -25,12 +25,17 @@ impl Expression {
         if !self.tree.nodes().any(starred) {
             return Cow::Borrowed(self);
         }
-        let (text, written) = (self.text.as_str(), Vec::new());
-        let mut copy =
-            Copy { from: &self.tree, text, members, to: Tree::default(), written, index: None };
+        let (to, written) = (Tree::default(), Vec::new());
+        let mut copy = Copy { whole: self, from: &self.tree, members, to, written, index: None };
         copy.node(self.tree.root());
-        let mut whole = Self { tree: copy.to, ..self.clone() };
-        whole.renamed.extend(copy.written);
+        let Copy { to, written, .. } = copy;
+        let mut whole = Self { tree: to, ..self.clone() };
+        // the text of an argument has the new names inside it
+        let inside = |place: &Range<usize>, whole: &Range<usize>| {
+            whole.start <= place.start && place.end <= whole.end
+        };
+        whole.renamed.retain(|(place, _)| !written.iter().any(|(whole, _)| inside(place, whole)));
+        whole.renamed.extend(written);
         whole.renamed.sort_by_key(|(span, _)| span.start);
         Cow::Owned(whole)
     }
@@ -41,8 +46,8 @@ fn is_family(node: &Node) -> bool {
 }
 
 struct Copy<'a> {
+    whole: &'a Expression,
     from: &'a Tree,
-    text: &'a str,
     members: Members<'a>,
     to: Tree,
     /// The places of arguments, and the text of their members.
@@ -117,19 +122,19 @@ impl Copy<'_> {
         all
     }
 
-    /// The text of an argument for one member of its families.
+    /// The text of an argument for one member of its families, with the new names.
     fn member(&self, root: Id, index: usize) -> String {
-        let whole = self.from.span(root);
-        let (mut text, mut at) = (String::new(), whole.start);
-        for id in self.from.first(root)..=root {
-            let Node::Name(name) = self.from.node(id) else { continue };
-            let span = self.from.span(id);
-            let member = (self.members)(name).and_then(|names| names.get(index).cloned());
-            text += self.text.get(at..span.start).unwrap_or_default();
-            text += member.as_ref().unwrap_or(name);
-            at = span.end;
-        }
-        text + self.text.get(at..whole.end).unwrap_or_default()
+        let families = (self.from.first(root)..=root).filter_map(|id| {
+            let Node::Name(name) = self.from.node(id) else { return None };
+            let member = (self.members)(name)?.get(index)?.clone();
+            Some((self.from.span(id), member))
+        });
+        let families: Vec<(Range<usize>, String)> = families.collect();
+        let others = self.whole.renamed.iter();
+        let others = others.filter(|(span, _)| !families.iter().any(|(family, _)| family == span));
+        let mut renamed: Vec<_> = others.cloned().chain(families.iter().cloned()).collect();
+        renamed.sort_by_key(|(span, _)| span.start);
+        self.whole.text_of(&self.from.span(root), &renamed)
     }
 
     /// The number of members of all families below an argument; `None` without families, or if

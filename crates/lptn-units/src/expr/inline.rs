@@ -11,6 +11,7 @@ use super::scope::Scope;
 use super::tree::{Node, Operator, Tree};
 use crate::dimension::Dimension;
 use crate::format_number;
+use crate::rational::Rational;
 use crate::types::Type;
 
 impl Expression {
@@ -34,6 +35,25 @@ impl Expression {
     pub fn with(&self, others: &[(&str, &Self)]) -> Self {
         let other = |name: &str| others.iter().find(|(known, _)| *known == name);
         self.replaced(&|name| other(name).map(|(_, other)| Cow::Borrowed(&other.tree)))
+    }
+
+    /// The same expression with a whole number in the place of a name, in [`Expression::meant`] too.
+    #[must_use]
+    pub fn with_number(mut self, name: &str, number: usize) -> Self {
+        let named = |(found, _): &(String, Range<usize>)| found == name;
+        let places: Vec<_> = self.names().into_iter().filter(named).collect();
+        if places.is_empty() {
+            return self;
+        }
+        let text = number.to_string();
+        let exact = Rational::from_decimal(&text);
+        let mut tree = Tree::default();
+        tree.push(Node::Number { value: number as f64, exact }, 0..text.len());
+        let whole = self.replaced(&|found| (found == name).then_some(Cow::Borrowed(&tree)));
+        self.tree = whole.tree;
+        self.renamed.extend(places.into_iter().map(|(_, place)| (place, text.clone())));
+        self.renamed.sort_by_key(|(span, _)| span.start);
+        self
     }
 
     fn replaced<'t>(&self, meaning: &dyn Fn(&str) -> Option<Cow<'t, Tree>>) -> Self {

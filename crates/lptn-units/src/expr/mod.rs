@@ -83,14 +83,18 @@ impl Expression {
 
     /// The text with the new names, for a reader who does not know the old ones.
     pub fn meant(&self) -> String {
-        let (mut text, mut at) = (String::new(), self.part.start);
-        for (span, name) in self.renamed.iter().filter(|(span, _)| self.part.contains(&span.start))
-        {
+        self.text_of(&self.part, &self.renamed)
+    }
+
+    /// A part of the text with new names, which are in the order of the text.
+    fn text_of(&self, part: &Range<usize>, renamed: &[(Range<usize>, String)]) -> String {
+        let (mut text, mut at) = (String::new(), part.start);
+        for (span, name) in renamed.iter().filter(|(span, _)| part.contains(&span.start)) {
             text += self.text.get(at..span.start).unwrap_or_default();
             text += name;
             at = span.end;
         }
-        text + self.text.get(at..self.part.end).unwrap_or_default()
+        text + self.text.get(at..part.end).unwrap_or_default()
     }
 
     /// The text that was parsed. Spans are byte ranges of it; those of a side that

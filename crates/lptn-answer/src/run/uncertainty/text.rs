@@ -10,6 +10,7 @@ use lptn_units::Unit;
 use super::Study;
 use super::files::{parameter, unit_of};
 use super::inputs;
+use crate::families::{self, Row};
 use crate::words::{MOST_NODES, count, difference};
 
 /// Parameters that a ranking names.
@@ -22,14 +23,19 @@ const LEAST_SHARE: f64 = 0.0005;
 const MOST_RANKINGS: usize = 3;
 
 /// A section with the bands, one with the limits and one with the ranking.
-pub(crate) fn sections(text: &mut Text, network: &Network, (study, unit): (&Study, &Unit)) {
+/// With `fold`, large families are their worst member.
+pub(crate) fn sections(
+    text: &mut Text,
+    (network, fold): (&Network, bool),
+    (study, unit): (&Study, &Unit),
+) {
     let found = &study.found;
     text.section().sentence("uncertainty: ", &heading(found));
     for (label, words) in inputs::described(network, found) {
         text.sentence(label, &words);
     }
-    temperatures(text.section(), network, (found, unit));
-    margins(text.section(), network, found);
+    temperatures(text.section(), (network, fold), (found, unit));
+    margins(text.section(), (network, fold), found);
     ranking(text.section(), network, found);
 }
 
@@ -47,27 +53,54 @@ fn heading(found: &Uncertainty) -> String {
     }
 }
 
-fn temperatures(text: &mut Text, network: &Network, (found, unit): (&Uncertainty, &Unit)) {
+/// Answers by name, with `fold` each large family as its largest `worst`.
+fn rows<'a>(
+    answers: impl Iterator<Item = &'a Answer>,
+    (network, fold): (&Network, bool),
+    worst: impl Fn(&Answer) -> f64,
+) -> Vec<Row<&'a Answer>> {
+    let named = |answer: &&Answer| (name(network, answer.of), 0);
+    families::folded(answers.collect(), fold, named, |answer| worst(answer))
+}
+
+fn temperatures(
+    text: &mut Text,
+    (network, fold): (&Network, bool),
+    (found, unit): (&Uncertainty, &Unit),
+) {
     let is = |of: fn(&AnswerOf) -> bool| found.answers.iter().filter(move |answer| of(&answer.of));
-    let ends: Vec<&Answer> = is(|of| matches!(of, AnswerOf::End(_))).take(MOST_NODES).collect();
-    let peaks: Vec<&Answer> = is(|of| matches!(of, AnswerOf::Max(_))).take(MOST_NODES).collect();
-    if ends.is_empty() {
+    let mut nodes = rows(is(|of| matches!(of, AnswerOf::End(_))), (network, fold), |a| a.value);
+    let all = nodes.len();
+    nodes.truncate(MOST_NODES);
+    if nodes.is_empty() {
         return;
     }
+    let ends: Vec<&Answer> = nodes.iter().map(|row| row.item).collect();
+    // the same node has both numbers
+    let peak_of = |end: &&Answer| match end.of {
+        AnswerOf::End(id) => found.answers.iter().find(|other| other.of == AnswerOf::Max(id)),
+        _ => None,
+    };
+    let peaks: Vec<&Answer> = ends.iter().filter_map(peak_of).collect();
     let widest = ends.iter().chain(&peaks).map(|answer| answer.deviation.value).fold(0.0, f64::max);
     let digits = decimals(widest / unit.scale, 3, 1);
-    let names = ends.iter().map(|answer| name(network, answer.of)).collect();
+    let names = nodes.iter().map(|row| row.name.clone()).collect();
     let mut columns = vec![Column::new(format!("T [{}]", unit.text), Align::Left, names)];
+    if nodes.iter().any(|row| !row.member.is_empty()) {
+        let members = nodes.iter().map(|row| row.member.clone()).collect();
+        columns.push(Column::new("hottest", Align::Left, members));
+    }
+    let numbers = columns.len();
     let end = duration(found.times.last().copied().unwrap_or(0.0), 4);
     columns.extend(band(&ends, &end, (unit, digits)));
     let peak = band(&peaks, "peak", (unit, digits));
     // in a network that only warms, the peak is at the end
-    let same = peak.iter().zip(&columns[1..]).all(|(peak, end)| peak.cells == end.cells);
+    let same = peak.iter().zip(&columns[numbers..]).all(|(peak, end)| peak.cells == end.cells);
     if !same {
         columns.extend(peak);
     }
     text.table(TextTable::new(columns));
-    let more = is(|of| matches!(of, AnswerOf::End(_))).count() - ends.len();
+    let more = all - nodes.len();
     if more > 0 {
         text.line(format!("not shown: {}, which uncertainty.csv has", count(more, "more node")));
     }
@@ -95,9 +128,9 @@ fn band(answers: &[&Answer], title: &str, (unit, digits): (&Unit, usize)) -> Vec
     ]
 }
 
-fn margins(text: &mut Text, network: &Network, found: &Uncertainty) {
-    let margins: Vec<&Answer> =
-        found.answers.iter().filter(|answer| matches!(answer.of, AnswerOf::Margin(_))).collect();
+fn margins(text: &mut Text, (network, fold): (&Network, bool), found: &Uncertainty) {
+    let margins = found.answers.iter().filter(|answer| matches!(answer.of, AnswerOf::Margin(_)));
+    let margins = rows(margins, (network, fold), |answer| -answer.value);
     if margins.is_empty() {
         return;
     }
@@ -105,13 +138,13 @@ fn margins(text: &mut Text, network: &Network, found: &Uncertainty) {
         let digits = decimals(answer.deviation.value, 3, 1);
         format!("{} {}", fixed(value, digits), unit_of(network, answer.of))
     };
-    let table = TextTable::of(&margins)
-        .left("limit", |a| name(network, a.of))
-        .right("margin", |a| number(a, a.value))
-        .right("sd", |a| number(a, a.deviation.value))
-        .right("2.5 %", |a| number(a, a.low.value))
-        .right("97.5 %", |a| number(a, a.high.value))
-        .right("P(broken)", |a| probability(a.below_zero, sampled(found)));
+    let table = TextTable::of(&margins).left("limit", |row| row.name.as_str());
+    let table = families::members(table, &margins, "worst")
+        .right("margin", |row| number(row.item, row.item.value))
+        .right("sd", |row| number(row.item, row.item.deviation.value))
+        .right("2.5 %", |row| number(row.item, row.item.low.value))
+        .right("97.5 %", |row| number(row.item, row.item.high.value))
+        .right("P(broken)", |row| probability(row.item.below_zero, sampled(found)));
     text.table(table);
 }
 

@@ -29,6 +29,7 @@ pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Fai
         sort: args.sort,
         temperature_unit: args.scale.temperature_unit.clone(),
         threads: args.threads,
+        detail: console.detail,
         command: files::arguments(),
     };
     let answer = question.ask(&console.listening())?;

@@ -65,6 +65,7 @@ fn source(path: &Path, args: &PlotArgs, console: &Console) -> Result<(Source, Ex
     let columns = Columns {
         select: args.select.clone(),
         temperature_unit: args.scale.temperature_unit.clone(),
+        families: is_alone(args) && !console.verbose,
         csv: args.form.options()?,
     };
     let source = match is_record(path) {
@@ -75,7 +76,13 @@ fn source(path: &Path, args: &PlotArgs, console: &Console) -> Result<(Source, Ex
     Ok((source, Exit::Done))
 }
 
+/// True if nothing else is drawn over a file.
+fn is_alone(args: &PlotArgs) -> bool {
+    args.sources.len() == 1
+}
+
 fn of_netlist(path: &Path, args: &PlotArgs, console: &Console) -> Result<(Source, Exit), Failure> {
+    let alone = is_alone(args);
     let source =
         crate::options::Source { set: args.set.clone(), ..crate::options::Source::of(path.into()) };
     let scale = Scale { temperature_unit: args.scale.temperature_unit.clone() };
@@ -96,5 +103,5 @@ fn of_netlist(path: &Path, args: &PlotArgs, console: &Console) -> Result<(Source
     let (answer, _) = run::answer(&args, input, console)?;
     run::messages::beside(&answer, None, console);
     let exit = run::messages::conclude(&answer, false, console);
-    Ok((Source::of_run(path, &answer), exit))
+    Ok((Source::of_run(path, &answer, alone), exit))
 }

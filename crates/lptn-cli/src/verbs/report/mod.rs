@@ -28,7 +28,7 @@ use lptn_answer::plot::{Columns, Source};
 
 pub(crate) fn report(args: &ReportArgs, console: &Console) -> Result<Exit, Failure> {
     let folder = &args.folder;
-    let source = Source::of_folder(folder, &Columns::default())?;
+    let source = Source::of_folder(folder, &Columns { families: true, ..Columns::default() })?;
     console.warn(&source.doubts.0, &source.doubts.1);
     let figure = source.figure;
     console.results_in(folder);
