@@ -38,6 +38,7 @@ mod own_states;
 mod periodic;
 mod periodic_events;
 mod pipes;
+mod properties;
 mod response;
 mod sensitive;
 mod snapshot;
