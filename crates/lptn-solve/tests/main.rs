@@ -9,6 +9,7 @@
 
 mod accuracy;
 mod balance;
+mod beyond_tables;
 mod common;
 mod cycles;
 mod elements;
