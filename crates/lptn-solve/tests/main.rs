@@ -9,6 +9,7 @@
 
 mod accuracy;
 mod balance;
+mod between_kinks;
 mod beyond_tables;
 mod common;
 mod cycles;
