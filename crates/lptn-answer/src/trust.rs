@@ -58,7 +58,7 @@ fn unresolved(netlist: &Netlist, open: &Unresolved) -> Diagnostic {
 }
 
 /// A warning that names the node, and the path and the source that probably did it; `run` means
-/// beside a run.
+/// the steady state of a run.
 pub fn implausible(netlist: &Netlist, beyond: &Beyond, run: bool) -> Diagnostic {
     let network = &netlist.network;
     let name = |item: Item| network.name_of(item).into_owned();

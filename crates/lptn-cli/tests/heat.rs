@@ -248,7 +248,7 @@ fn a_result_beyond_sense_names_the_node_the_path_and_the_source() {
 #[test]
 fn an_implausible_steady_state_of_a_plausible_run_is_a_warning() {
     let folder = Folder::with("x.toml", BLOCK);
-    let ran = folder.run(&["run", "x.toml", "--set", "R_skin=8 MK/W", "--no-files"]).exits(0);
+    let ran = folder.run(&["run", "x.toml", "--set", "R_skin=8 MK/W", "--no-files"]).exits(1);
     ran.says("run::beyond_sense").says("degC in steady state, which is not plausible");
 }
 

@@ -11,8 +11,7 @@ use crate::library::{self, LibrarySubstance};
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawValue};
 use crate::section::keys::{CP_OF_FLUID, SOURCE_OF};
-use crate::section::property_call::symbol;
-use crate::section::table::of_temperature;
+use crate::section::table::{of_temperature, symbol};
 use crate::work::{Elaboration, KnownFluid, stand_in};
 
 pub(crate) const FLUID: SectionDeclaration = SectionDeclaration {

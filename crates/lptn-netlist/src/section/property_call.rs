@@ -5,11 +5,9 @@
 //! constant is refused: a call would show a dependence on temperature that the number does not
 //! have.
 
-use std::sync::Arc;
-
 use lptn_data::{Diagnostic, Span, list};
 use lptn_network::{Field, Item, LawField};
-use lptn_units::{Expression, LookupTable, Table1, TableSymbol, Type, Unit, suggest};
+use lptn_units::{Expression, TableSymbol, Type, suggest};
 
 use crate::fields::{Fields, Owner};
 use crate::format::SectionDeclaration;
@@ -19,6 +17,7 @@ use crate::raw::{RawEntry, RawKind};
 use crate::section::fluid::FLUID;
 use crate::section::lubricant::{self, LUBRICANT};
 use crate::section::material::MATERIAL;
+use crate::section::table::symbol;
 use crate::work::Elaboration;
 
 /// Keys of [fluid] and [material] that may be tables over temperature.
@@ -35,6 +34,11 @@ const SYMBOLS: [(&str, &str); 8] = [
     ("eta", "viscosity"),
     ("beta", "expansion"),
 ];
+
+/// True for the key of a property that may be a function.
+fn is_key(property: &str) -> bool {
+    TABULATED.contains(&property) || lubricant::PROPERTIES.contains(&property)
+}
 
 /// The type of a property.
 fn type_of(property: &str) -> Option<Type> {
@@ -109,7 +113,8 @@ impl<'a> Elaboration<'a> {
         words: &str,
         at: &Span,
     ) -> Option<Diagnostic> {
-        let called = self.substance_called(name)?;
+        // the search for the substance would cost time in files of many `NAME.T`
+        let called = is_key(property).then(|| self.substance_called(name))??;
         let is_function = self.functions(called).any(|known| known == property);
         let hidden = self.names.kind_of(name).is_some() || !is_function;
         (!hidden).then(|| {
@@ -244,9 +249,7 @@ impl<'a> Elaboration<'a> {
             called.is_some_and(|called| self.functions(called).any(|known| known == property))
         };
         let near = suggest(name, all.filter(has));
-        let is_property =
-            TABULATED.contains(&property) || lubricant::PROPERTIES.contains(&property);
-        if near.is_none() && !is_property || self.names.is_hidden(name) {
+        if near.is_none() && !is_key(property) || self.names.is_hidden(name) {
             return None;
         }
         let help = match near {
@@ -284,15 +287,4 @@ fn constant_of(called: Called<'_, '_>, property: &str) -> Option<String> {
     };
     let unit = type_of(property)?.usual_unit();
     value.map(|value| format!("{} [{unit}]", lptn_units::format_number(value)))
-}
-
-/// A table over temperature, with its usual units.
-pub(super) fn symbol(table: &Table1, ty: Type) -> TableSymbol {
-    let units = [Unit::parse("K"), Unit::parse(&ty.usual_unit())];
-    TableSymbol {
-        table: Arc::new(LookupTable::One(table.clone())),
-        arguments: vec![Type::ABSOLUTE_TEMPERATURE],
-        ty,
-        units: units.into_iter().flatten().collect(),
-    }
 }

@@ -233,6 +233,17 @@ impl<'a> Elaboration<'a> {
     }
 }
 
+/// A table over temperature, with its usual units.
+pub(super) fn symbol(table: &Table1, ty: Type) -> TableSymbol {
+    let units = [Unit::parse("K"), Unit::parse(&ty.usual_unit())];
+    TableSymbol {
+        table: Arc::new(LookupTable::One(table.clone())),
+        arguments: vec![Type::ABSOLUTE_TEMPERATURE],
+        ty,
+        units: units.into_iter().flatten().collect(),
+    }
+}
+
 /// A property that is a table over its own temperature; an error at run time names it by its key.
 pub(super) fn of_temperature(key: &str, table: TableSymbol, ty: Type) -> Option<Input> {
     let scope = OfTemperature { name: key, table };
