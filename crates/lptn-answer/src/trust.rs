@@ -11,7 +11,7 @@ use crate::ranges;
 /// Doubts in the numbers of an answer; `run` means over time.
 /// Implausible values, laws outside their ranges, results that change faster than steps resolve.
 pub fn doubts(netlist: &Netlist, trust: &Trust, run: bool) -> Vec<Diagnostic> {
-    let beyond = trust.beyond.iter().map(|beyond| warning(netlist, beyond));
+    let beyond = trust.beyond.iter().map(|beyond| implausible(netlist, beyond, run));
     let outside = ranges::warnings(netlist, &trust.out_of_range, run);
     let unresolved = trust.unresolved.iter().map(|open| unresolved(netlist, open));
     beyond.chain(outside).chain(unresolved).collect()
@@ -57,11 +57,16 @@ fn unresolved(netlist: &Netlist, open: &Unresolved) -> Diagnostic {
         .help("write jumps over time as a signal or with `if(t < ..)`: these times are met exactly")
 }
 
-/// A warning that names the node, and the path and the source that probably did it.
-fn warning(netlist: &Netlist, beyond: &Beyond) -> Diagnostic {
+/// A warning that names the node, and the path and the source that probably did it; `run` means
+/// the steady state of a run.
+pub fn implausible(netlist: &Netlist, beyond: &Beyond, run: bool) -> Diagnostic {
     let network = &netlist.network;
     let name = |item: Item| network.name_of(item).into_owned();
-    let when = beyond.time.map_or_else(String::new, |time| format!(" at {}", duration(time, 4)));
+    let when = match beyond.time {
+        Some(time) => format!(" at {}", duration(time, 4)),
+        None if run => " in steady state".to_owned(),
+        None => String::new(),
+    };
     let message = format!(
         "node `{}` reaches {} degC{when}, which is not plausible",
         name(Item::Node(beyond.node)),

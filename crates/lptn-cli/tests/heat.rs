@@ -244,6 +244,14 @@ fn a_result_beyond_sense_names_the_node_the_path_and_the_source() {
     folder.run(&["compare", "x.toml", "y.toml"]).says("run::beyond_sense");
 }
 
+/// The run is plausible as far as it goes, but not the steady state that its table shows.
+#[test]
+fn an_implausible_steady_state_of_a_plausible_run_is_a_warning() {
+    let folder = Folder::with("x.toml", BLOCK);
+    let ran = folder.run(&["run", "x.toml", "--set", "R_skin=8 MK/W", "--no-files"]).exits(1);
+    ran.says("run::beyond_sense").says("degC in steady state, which is not plausible");
+}
+
 /// Resistances that meet in a node and are many decades apart are named, both of them.
 #[test]
 fn resistances_many_decades_apart_are_named() {

@@ -169,6 +169,9 @@ impl Netlist {
                         "a signal changes with time: scale it with a parameter, and set that",
                     );
                 }
+                if let Some((place, help)) = self.parameter_for(name.trim()) {
+                    return problem.also(place, "its value in the netlist").help(help);
+                }
                 self.suggest_parameter(problem, unknown.suggestion.as_deref())
             }
             ParameterError::Unit { name: parameter, error, .. } => {

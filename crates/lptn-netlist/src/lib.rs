@@ -86,6 +86,7 @@ mod schema;
 mod scope;
 mod section;
 mod sensor;
+mod settable;
 mod setting;
 mod size;
 mod source_map;

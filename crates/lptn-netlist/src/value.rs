@@ -40,6 +40,9 @@ impl Elaboration<'_> {
         self.learn(&expression);
         self.learn_lubricants(&expression, &place.raw.span);
         self.learn_fans(&expression, &place.raw.span);
+        if !self.learn_properties(place, &expression) {
+            return None;
+        }
         let problems = self.names.check(place, &expression, wanted);
         if !problems.is_empty() {
             self.problems.extend(problems);

@@ -25,6 +25,7 @@ mod library;
 mod limits;
 mod materials;
 mod posterior;
+mod properties;
 mod property;
 mod schema;
 #[path = "support/schema_check.rs"]

@@ -110,6 +110,23 @@ conductance (W/K)
     assert_eq!(found, expected, "\n{found}");
 }
 
+/// A field of an element is not a parameter: the message has the lines that make it one.
+#[test]
+fn a_field_of_an_element_shows_the_parameter_that_it_needs() {
+    for (assignment, help) in [
+        ("air.T=30 degC", "its value is the parameter `T_amb`: set that"),
+        ("cooling.R=1 K/W", "only parameters can be set: set one that this value reads"),
+        (
+            "block.C=1 J/K",
+            "only parameters can be set: add `block_C = \"500 J/K\"` below [param], write `C = \
+             \"block_C\"` in `block`, and set `block_C`",
+        ),
+    ] {
+        let found = refused(&[assignment]);
+        assert!(found.contains(help), "{found}");
+    }
+}
+
 #[test]
 fn what_breaks_names_the_place_and_the_change() {
     let expected = "\

@@ -32,8 +32,9 @@ impl Network {
     /// ascending: points of signals, changes of comparisons, kinks of `abs`, `min` and `max`, knots
     /// of tables.
     ///
-    /// A comparison goes straight between points of signals (the builder refuses others), so its
-    /// two sides meet at most once there. Kinks of curves are looked for in small steps.
+    /// A comparison goes straight between points of signals and kinks of its `abs`, `min` and `max`
+    /// (the builder refuses others), so its two sides meet at most once there. Kinks of curves are
+    /// looked for in small steps.
     ///
     /// A value that is not defined at some time is left to the run, which reports it.
     ///
@@ -76,8 +77,10 @@ impl Network {
         for value in &what.values {
             for difference in self.differences(value) {
                 for &stretch in &stretches {
-                    // a part in a branch that is not taken may have no value there
-                    let _ = crossings(&difference, &mut scope, stretch, &mut times);
+                    for stretch in difference.straight(&mut scope, stretch) {
+                        // a part in a branch that is not taken may have no value there
+                        let _ = crossings(&difference, &mut scope, stretch, &mut times);
+                    }
                 }
             }
         }
@@ -106,17 +109,17 @@ impl Network {
         let mut differences = Vec::new();
         for program in value.programs() {
             let plain = program.comparisons().iter().chain(program.kinks());
-            differences.extend(plain.map(|p| Difference::new(p, vec![0.0])));
+            differences.extend(plain.map(|p| self.parts.difference(p, program.kinks())));
             for call in program.table_calls() {
                 let axes = (0..call.table.dimension()).map(|axis| call.table.knots(axis));
                 let pairs = call.arguments.iter().zip(axes);
-                differences.extend(
-                    pairs.map(|(argument, knots)| Difference::new(argument, knots.to_vec())),
-                );
+                differences.extend(pairs.map(|(argument, knots)| Difference {
+                    knots: knots.to_vec(),
+                    ..self.parts.difference(argument, &[])
+                }));
             }
         }
         let parts = &self.parts;
-        differences.iter_mut().for_each(|d| d.degree = parts.course_of(&d.program));
         let of_time = |d: &Difference| {
             let value = Value::Expression(d.program.clone().into());
             d.degree > Degree::Constant && !parts.reads(&value).reads_results()
@@ -163,12 +166,26 @@ impl Network {
 struct Difference {
     program: Program,
     knots: Vec<f64>,
+    /// Between its kinks.
     degree: Degree,
+    /// Those of its own `abs`, `min` and `max` that go straight between others before them.
+    kinks: Vec<Difference>,
 }
 
 impl Difference {
-    fn new(program: &Program, knots: Vec<f64>) -> Self {
-        Self { program: program.clone(), knots, degree: Degree::Constant }
+    /// The parts of a stretch in which it goes straight, if that is known from its form.
+    fn straight(&self, scope: &mut Evaluation, (from, to): Stretch) -> Vec<Stretch> {
+        let mut ends = vec![from, to];
+        for kink in &self.kinks {
+            let mut times = Vec::new();
+            for part in ends.windows(2) {
+                let _ = crossings(kink, scope, (part[0], part[1]), &mut times);
+            }
+            tidy(&mut times, from, to);
+            ends.extend(times);
+            ends.sort_unstable_by(f64::total_cmp);
+        }
+        ends.windows(2).map(|part| (part[0], part[1])).collect()
     }
 }
 
@@ -287,6 +304,33 @@ impl Parts {
     }
 
     pub(crate) fn course_of(&self, program: &Program) -> Degree {
+        self.course_by(program, Program::degree_in)
+    }
+
+    /// The same between the kinks of the program.
+    fn course_between_kinks(&self, program: &Program) -> Degree {
+        self.course_by(program, Program::degree_between_kinks)
+    }
+
+    /// A difference that is zero at its events, of a program with these kinks.
+    fn difference(&self, program: &Program, kinks: &[Program]) -> Difference {
+        let plain = |program: &Program, degree, kinks| Difference {
+            program: program.clone(),
+            knots: vec![0.0],
+            degree,
+            kinks,
+        };
+        let (whole, between) = (self.course_of(program), self.course_between_kinks(program));
+        if whole == between {
+            return plain(program, whole, Vec::new());
+        }
+        // inner ones come first
+        let own = kinks.iter().filter(|kink| self.course_between_kinks(kink) == Degree::Affine);
+        let own = own.map(|kink| plain(kink, Degree::Affine, Vec::new()));
+        plain(program, between, own.collect())
+    }
+
+    fn course_by(&self, program: &Program, degree: fn(&Program, u32) -> Degree) -> Degree {
         let mut worst = Degree::Constant;
         let mut varying = 0;
         for slot in program.slots() {
@@ -299,7 +343,7 @@ impl Parts {
                 _ => continue,
             };
             varying += 1;
-            worst = worst.max(own.max(program.degree_in(slot)));
+            worst = worst.max(own.max(degree(program, slot)));
         }
         // each is straight by itself, but the form of the code does not exclude a product
         if varying > 1 { Degree::Nonlinear } else { worst }
@@ -327,6 +371,7 @@ impl Parts {
         });
         let known = match (self.course(&value), single.count()) {
             (Degree::Constant | Degree::Affine, _) => true,
+            _ if self.course_between_kinks(comparison) <= Degree::Affine => true,
             // one curve that goes one way between its points
             (Degree::Nonlinear, 1) => {
                 let affine = |s: &u32| comparison.degree_in(*s) <= Degree::Affine;

@@ -73,7 +73,7 @@ impl Newton<'_> {
 }
 
 /// The increase that brings a value well inside its range, if it reports that range.
-fn lacks(error: &InputError) -> Option<f64> {
+pub(crate) fn lacks(error: &InputError) -> Option<f64> {
     let into = |value: f64, (from, to): (f64, f64)| {
         let room = INSIDE * (to - from);
         value.clamp(from + room, to - room) - value

@@ -68,6 +68,8 @@ pub(crate) struct Newton<'a> {
     pub(crate) leans: bool,
     /// True if the balances may have several solutions, so that one must not be left for another.
     pub(crate) guarded: bool,
+    /// True once the reason of a failure was searched for with the end values of tables.
+    tried: bool,
     /// The whole Jacobian, once it is needed.
     pub(crate) whole: Vec<f64>,
     pub(crate) values: Vec<f64>,
@@ -104,6 +106,7 @@ impl<'a> Newton<'a> {
             base: Vec::new(),
             leans: false,
             guarded: false,
+            tried: false,
             whole: Vec::new(),
             values,
             flow,
@@ -199,31 +202,16 @@ impl<'a> Newton<'a> {
                     return Ok(());
                 }
                 // the reason at the start is more useful than the end of the pseudo-time
-                self.pseudo_time(work, temperatures).map_err(|later| match (first, later) {
-                    (NewtonError::Stalled { .. }, later) => later,
-                    (first, _) => first,
-                })
+                match (self.pseudo_time(work, temperatures), first) {
+                    (Ok(()), _) => Ok(()),
+                    (Err(later), NewtonError::Stalled { .. }) => Err(later),
+                    (Err(_), NewtonError::Input(failed)) => {
+                        temperatures.copy_from_slice(&start);
+                        self.beyond(work, temperatures, failed)
+                    }
+                    (Err(_), first) => Err(first),
+                }
             }
-        }
-    }
-
-    /// Solves the states with a balance first, at the temperatures of the start: without pressures
-    /// there are no flows, and without flows nothing determines a temperature. If that fails, the
-    /// search begins where it would have begun.
-    fn balance_states(&self, work: &mut Workspace, temperatures: &mut [f64]) {
-        let network = self.system.network();
-        let balanced = |unknown: &usize| {
-            network.state_at(self.system.unknowns()[*unknown]).is_some_and(|state| state.balanced)
-        };
-        let first: Vec<usize> = self.free.iter().copied().filter(balanced).collect();
-        if first.is_empty() || first.len() == self.free.len() {
-            return;
-        }
-        let before = temperatures.to_vec();
-        let solved =
-            Self::new(self.system, first).and_then(|mut newton| newton.solve(work, temperatures));
-        if solved.is_err() {
-            temperatures.copy_from_slice(&before);
         }
     }
 
@@ -417,6 +405,7 @@ fn worst(values: &[f64]) -> (usize, f64) {
 }
 
 mod balances;
+mod beyond;
 #[cfg(test)]
 mod tests;
 mod warmed;

@@ -9,6 +9,8 @@
 
 mod accuracy;
 mod balance;
+mod between_kinks;
+mod beyond_tables;
 mod common;
 mod cycles;
 mod elements;
@@ -38,6 +40,7 @@ mod own_states;
 mod periodic;
 mod periodic_events;
 mod pipes;
+mod properties;
 mod response;
 mod sensitive;
 mod snapshot;

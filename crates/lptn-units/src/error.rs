@@ -67,6 +67,14 @@ pub enum UnitErrorKind {
     AmbiguousProduct { fix: Option<String> } = "units::ambiguous_product",
         "product after `/` needs brackets",
         help fix.as_deref().map(write);
+    /// `W/mK`, which is metre kelvin to nearly everyone, but millikelvin by the rules: the string
+    /// in metre kelvin, if it can be meant.
+    Millikelvin { fix: Option<String> } = "units::millikelvin",
+        "`mK` below the bar may be metre kelvin or millikelvin",
+        help match fix {
+            Some(fix) => format!("{}; 1 W per millikelvin is 1000 W/K", write(fix)),
+            None => "write it per kelvin: 1 W per millikelvin is 1000 W/K".to_owned(),
+        };
     /// An exponent that cannot be read or does not fit, as written, or the power it belongs to.
     Exponent { text: String } = "units::exponent", format!("exponent `{text}` cannot be used"),
         help "write a whole number, a decimal or a fraction: m^2, s^0.5, rpm^(5/3)";
@@ -259,6 +267,7 @@ impl UnitError {
     /// Completes a fix for a unit to a fix for the text around it.
     pub(crate) fn map_fix(mut self, complete: impl Fn(&str) -> String) -> Self {
         if let UnitErrorKind::UnknownUnit { fix: Some(fix), .. }
+        | UnitErrorKind::Millikelvin { fix: Some(fix) }
         | UnitErrorKind::AmbiguousProduct { fix: Some(fix) } = &mut self.kind
         {
             *fix = complete(fix);

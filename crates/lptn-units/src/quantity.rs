@@ -57,7 +57,9 @@ pub fn parse_quantity(text: &str, expected: Option<Type>) -> Result<Quantity, Un
 /// not meant if a time is expected.
 pub(crate) fn of_quantity(mut error: UnitError, expected: Option<Type>) -> UnitError {
     let Some(wanted) = expected else { return error };
-    if let UnitErrorKind::UnknownUnit { fix, .. } = &mut error.kind {
+    if let UnitErrorKind::UnknownUnit { fix, .. } | UnitErrorKind::Millikelvin { fix } =
+        &mut error.kind
+    {
         let other = |fix: &String| {
             let found = read(fix).and_then(|reading| reading.conclude(Some(wanted)));
             let kind = found.err().map(|error| error.kind);

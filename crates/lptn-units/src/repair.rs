@@ -1,10 +1,16 @@
 //! Proposes the unit that was probably meant by an invalid text.
 
-use crate::unit_parser::{self, is_name_start, superscript};
+use crate::unit_parser::{self, MILLIKELVIN, is_name_start, superscript};
 use crate::unit_table;
 
 /// Texts longer than this are not a unit with a slip of the pen.
 const LONGEST: usize = 200;
+
+/// Torques as they are said in the order of the words, which would read as a mass times a length.
+const TORQUES: [(&str, [&str; 4]); 2] = [
+    ("lbf ft", ["ft-lb", "lb-ft", "ftlb", "lbft"]),
+    ("lbf in", ["in-lb", "lb-in", "inlb", "lbin"]),
+];
 
 /// The corrected unit: exponents raised (`m2` to `m^2`), brackets after the bar, near names
 /// replaced. `None` when no correction reads as a unit.
@@ -15,10 +21,15 @@ pub(crate) fn unit(text: &str) -> Option<String> {
     if ["u/min", "r/min", "rot/min", "min-1"].contains(&text.trim().to_lowercase().as_str()) {
         return Some("rpm".to_owned());
     }
+    let plain = text.trim().to_lowercase();
+    let torque = TORQUES.iter().find(|(_, said)| said.contains(&plain.as_str()));
+    if let Some((unit, _)) = torque {
+        return Some((*unit).to_owned());
+    }
     let text = without_dots(text).replace("**", "^").replace(" per ", "/");
     let mut repaired = String::new();
     for (i, part) in split(text.trim(), |c| c == '/').iter().enumerate() {
-        let words = words(part)?;
+        let words = words(part, i > 0)?;
         let product = words.join(" ");
         match i {
             0 => repaired = product,
@@ -29,17 +40,17 @@ pub(crate) fn unit(text: &str) -> Option<String> {
     unit_parser::parse(&repaired).ok().map(|_| repaired)
 }
 
-/// `kg.K` as `kg K`: a point before a letter multiplies.
+/// `kg.K` and `kg-K` as `kg K`: a point or a hyphen before a letter multiplies.
 fn without_dots(text: &str) -> String {
     let next = text.chars().skip(1).chain([' ']);
     text.chars()
         .zip(next)
-        .map(|(c, next)| if c == '.' && is_name_start(next) { ' ' } else { c })
+        .map(|(c, next)| if matches!(c, '.' | '-') && is_name_start(next) { ' ' } else { c })
         .collect()
 }
 
 /// The factors of a product, each corrected.
-fn words(part: &str) -> Option<Vec<String>> {
+fn words(part: &str, below: bool) -> Option<Vec<String>> {
     let part = part.trim();
     let inner = part.strip_prefix('(').and_then(|p| p.strip_suffix(')')).unwrap_or(part);
     let mut corrected = Vec::new();
@@ -50,6 +61,9 @@ fn words(part: &str) -> Option<Vec<String>> {
             Some(unit) => {
                 factors.next();
                 corrected.push(unit.to_owned());
+            }
+            None if below && text == MILLIKELVIN => {
+                corrected.extend(["m", "K"].map(str::to_owned));
             }
             None => corrected.extend(word(text)?),
         }
@@ -89,18 +103,29 @@ fn word(text: &str) -> Option<Vec<String>> {
     let mut rest = text;
     let mut found = Vec::new();
     while !rest.is_empty() {
-        let end = rest.find(|c: char| !is_name_start(c)).unwrap_or(rest.len());
-        let (name, tail) = rest.split_at_checked(end)?;
+        let mut at = rest.char_indices().skip(1);
+        // a degree begins another factor: `g°C`
+        let end = at.find(|(_, c)| !is_name_start(*c) || DEGREES.contains(c));
+        let (name, tail) = rest.split_at_checked(end.map_or(rest.len(), |(end, _)| end))?;
         let (exponent, tail) = exponent(tail)?;
         let unit = known(name)?;
-        if !exponent.is_empty() && unit.contains([' ', '^']) {
+        let joined = unit_table::run_together(&unit_table::plain_name(name));
+        if !exponent.is_empty() && (unit.contains('^') || unit.contains(' ') && joined.is_none()) {
             return None; // the power would be of a part
         }
-        found.extend(unit.split(' ').map(|factor| format!("{factor}{exponent}")));
+        // of units that were run together the power is that of the last: `kgm2`
+        let (first, last) = unit
+            .rsplit_once(' ')
+            .map_or((None, unit.as_str()), |(first, last)| (Some(first), last));
+        found.extend(first.into_iter().flat_map(|first| first.split(' ')).map(str::to_owned));
+        found.push(format!("{last}{exponent}"));
         rest = tail;
     }
     Some(found)
 }
+
+/// Signs with which a unit begins.
+const DEGREES: [char; 5] = ['°', '˚', 'º', '℃', '℉'];
 
 fn known(name: &str) -> Option<String> {
     let plain = unit_table::plain_name(name);

@@ -80,9 +80,9 @@ const MOST_KNOWN: usize = 64;
 fn with_fix(mut error: UnitError, text: &str) -> UnitError {
     let repaired = repair::unit(text);
     match &mut error.kind {
-        UnitErrorKind::UnknownUnit { fix, .. } | UnitErrorKind::AmbiguousProduct { fix } => {
-            *fix = repaired
-        }
+        UnitErrorKind::UnknownUnit { fix, .. }
+        | UnitErrorKind::Millikelvin { fix }
+        | UnitErrorKind::AmbiguousProduct { fix } => *fix = repaired,
         // `m-2`, `m**2`: not a unit, but plainly one with its exponent in another notation.
         UnitErrorKind::Syntax { .. } if repaired.is_some() => {
             let name = text.trim().to_owned();

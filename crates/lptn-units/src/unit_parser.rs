@@ -34,6 +34,12 @@ pub(crate) fn parse(text: &str) -> Result<ParsedUnit, UnitError> {
         let number = text.to_owned();
         return Err(UnitError::new(UnitErrorKind::OutOfRange { number }, 0..text.len()));
     }
+    let written = |name: &Range<usize>| text.get(name.clone()) == Some(MILLIKELVIN);
+    if product.millikelvins.to_f64() < 0.0
+        && let Some(span) = parser.names.iter().find(|name| written(name))
+    {
+        return Err(UnitError::new(UnitErrorKind::Millikelvin { fix: None }, span.clone()));
+    }
     let dimension = product.with_kin();
     Ok(ParsedUnit { scale: product.scale, dimension, alone: product.alone, names: parser.names })
 }
@@ -45,17 +51,27 @@ struct Factor {
     alone: Option<Entry>,
     /// Exponents of the units of force and of length in it: both are 1 in a torque.
     lever: [Rational; 2],
+    /// Exponent of the millikelvin.
+    millikelvins: Rational,
 }
 
-const ONE: Factor =
-    Factor { scale: 1.0, dimension: Dimension::NONE, alone: None, lever: [Rational::ZERO; 2] };
+/// Below the bar it is mostly metre kelvin.
+pub(crate) const MILLIKELVIN: &str = "mK";
+
+const ONE: Factor = Factor {
+    scale: 1.0,
+    dimension: Dimension::NONE,
+    alone: None,
+    lever: [Rational::ZERO; 2],
+    millikelvins: Rational::ZERO,
+};
 
 impl Factor {
     fn named(entry: Entry) -> Self {
         let Entry { scale, dimension, .. } = entry;
         let one = |of: Dimension| if dimension == of { Rational::ONE } else { Rational::ZERO };
         let lever = [one(Dimension::FORCE), one(Dimension::LENGTH)];
-        Self { scale, dimension, alone: Some(entry), lever }
+        Self { scale, dimension, alone: Some(entry), lever, ..ONE }
     }
 
     /// The dimension, which is one of a torque if the unit has a force and a length: `N m`,
@@ -112,14 +128,17 @@ impl Parser<'_> {
 
     fn join(&self, left: Factor, right: Factor, joint: &Joint) -> Option<Factor> {
         let ([force, length], [by_force, by_length]) = (left.lever, right.lever);
+        let (milli, by_milli) = (left.millikelvins, right.millikelvins);
         Some(if *joint == Joint::Over {
             let lever = [force.checked_sub(by_force)?, length.checked_sub(by_length)?];
             let dimension = left.dimension.checked_div(right.dimension)?;
-            Factor { scale: left.scale / right.scale, dimension, alone: None, lever }
+            let (scale, millikelvins) = (left.scale / right.scale, milli.checked_sub(by_milli)?);
+            Factor { scale, dimension, alone: None, lever, millikelvins }
         } else {
             let lever = [force.checked_add(by_force)?, length.checked_add(by_length)?];
             let dimension = left.dimension.checked_mul(right.dimension)?;
-            Factor { scale: left.scale * right.scale, dimension, alone: None, lever }
+            let (scale, millikelvins) = (left.scale * right.scale, milli.checked_add(by_milli)?);
+            Factor { scale, dimension, alone: None, lever, millikelvins }
         })
     }
 
@@ -192,6 +211,9 @@ impl Parser<'_> {
         let written = self.text.get(start..self.at).unwrap_or_default();
         self.names.push(start..self.at);
         match unit_table::find(&unit_table::plain_name(written)) {
+            Some(entry) if written == MILLIKELVIN => {
+                Ok(Factor { millikelvins: Rational::ONE, ..Factor::named(entry) })
+            }
             Some(entry) => Ok(Factor::named(entry)),
             None => {
                 let kind = UnitErrorKind::UnknownUnit { name: written.to_owned(), fix: None };
@@ -283,7 +305,9 @@ fn raise(base: Factor, exponent: Rational) -> Option<Factor> {
     };
     let [force, length] = base.lever;
     let lever = [force.checked_mul(exponent)?, length.checked_mul(exponent)?];
-    Some(Factor { scale, dimension: base.dimension.checked_pow(exponent)?, alone: None, lever })
+    let millikelvins = base.millikelvins.checked_mul(exponent)?;
+    let dimension = base.dimension.checked_pow(exponent)?;
+    Some(Factor { scale, dimension, alone: None, lever, millikelvins })
 }
 
 /// `5/3`, `-1`, `0.5`.

@@ -31,12 +31,15 @@ const STANDARD_GRAVITY: f64 = 9.806_65;
 const POUND_FORCE: f64 = POUND * STANDARD_GRAVITY;
 const GALLON: f64 = 3.785_411_784e-3;
 const BTU: f64 = 1_055.055_852_62;
+/// A millimetre of mercury of 13 595.1 kg/m^3 (conventional) in Pa.
+const MERCURY: f64 = 13.595_1 * STANDARD_GRAVITY;
 const REVOLUTION: f64 = std::f64::consts::TAU;
 
 /// Every unit. SI values: SI Brochure, 9th edition (2019), tables 2 to 8. The others: NIST Special
 /// Publication 811 (2008), appendix B: international foot and avoirdupois pound (exact), BTU of the
-/// International Table, thermochemical calorie, mechanical horsepower (550 ft lbf/s), US gallon
-/// (231 in^3).
+/// International Table, thermochemical calorie, mechanical horsepower (550 ft lbf/s), metric
+/// horsepower (75 kgf m/s), US gallon (231 in^3), conventional columns of mercury and of water
+/// (1000 kg/m^3).
 pub(crate) const UNITS: &[Entry] = &[
     si("m", 1.0, Dimension::LENGTH),
     si("g", 1e-3, Dimension::MASS),
@@ -94,6 +97,14 @@ pub(crate) const UNITS: &[Entry] = &[
     plain("BTU", BTU, Dimension::ENERGY),
     plain("Btu", BTU, Dimension::ENERGY),
     plain("hp", 550.0 * FOOT * POUND_FORCE, Dimension::POWER),
+    plain("PS", 75.0 * STANDARD_GRAVITY, Dimension::POWER),
+    plain("mmHg", MERCURY, Dimension::PRESSURE),
+    plain("inHg", 25.4 * MERCURY, Dimension::PRESSURE),
+    plain("torr", 101_325.0 / 760.0, Dimension::PRESSURE),
+    plain("mmH2O", STANDARD_GRAVITY, Dimension::PRESSURE),
+    plain("inH2O", 25.4 * STANDARD_GRAVITY, Dimension::PRESSURE),
+    plain("week", 604_800.0, Dimension::TIME),
+    plain("weeks", 604_800.0, Dimension::TIME),
 ];
 
 const PREFIXES: [(&str, f64); 16] = [
@@ -174,6 +185,33 @@ const ALIASES: &[(&str, &str)] = &[
     ("revs", "rev"),
     ("bars", "bar"),
     ("ccm", "cm^3"),
+    ("cc", "cm^3"),
+    ("cbm", "m^3"),
+    ("cuft", "ft^3"),
+    ("cuin", "in^3"),
+    ("sqin", "in^2"),
+    ("sqcm", "cm^2"),
+    ("micron", "um"),
+    ("microns", "um"),
+    ("thou", "mil"),
+    ("kp", "kgf"),
+    ("bhp", "hp"),
+    ("wk", "week"),
+    ("wks", "weeks"),
+    ("ltr", "L"),
+    ("liters", "L"),
+    ("litres", "L"),
+    ("millimeter", "mm"),
+    ("millimetre", "mm"),
+    ("centimeter", "cm"),
+    ("centimetre", "cm"),
+    ("kilowatt", "kW"),
+    ("kilowatts", "kW"),
+    ("kilojoule", "kJ"),
+    ("milliseconds", "ms"),
+    ("kelvins", "K"),
+    ("deg_c", "degC"),
+    ("deg_f", "degF"),
     ("turn", "rev"),
     ("percent", "%"),
     ("newton", "N"),
@@ -225,28 +263,28 @@ pub(crate) fn plain_name(written: &str) -> String {
 
 /// `kgK` as `kg K` and `mPas` as `mPa s`: units that were run together. Other letters at the end of
 /// a name are slips.
-fn run_together(name: &str) -> Option<String> {
+pub(crate) fn run_together(name: &str) -> Option<String> {
     let joined = |last: &str, of: &dyn Fn(&str) -> bool| {
         let first = name.strip_suffix(last).filter(|first| of(first))?;
         find(first).map(|_| format!("{first} {last}"))
     };
     let by_time = |first: &str| ["Pa", "J", "W"].iter().any(|unit| first.ends_with(unit));
     let kilogram = || name.eq_ignore_ascii_case("kgk").then(|| "kg K".to_owned());
-    joined("K", &|_| true).or_else(|| joined("s", &by_time)).or_else(kilogram)
+    joined("K", &|_| true)
+        .or_else(|| joined("s", &by_time))
+        .or_else(|| joined("m", &|first| first.ends_with("kg")))
+        .or_else(kilogram)
 }
 
-/// Names that are refused because each is too near to a unit of another kind: the metric horsepower
-/// `PS` is not a pascal.
-const NO_SLIPS: [&str; 2] = ["PS", "ps"];
-
 /// Times that are not units because their length is ambiguous, and the text to write.
-const CALENDAR: [(&str, &str); 6] = [
+const CALENDAR: [(&str, &str); 7] = [
     ("a", "a year of 365 days is \"8760 h\""),
     ("yr", "a year of 365 days is \"8760 h\""),
     ("yrs", "a year of 365 days is \"8760 h\""),
     ("year", "a year of 365 days is \"8760 h\""),
     ("years", "a year of 365 days is \"8760 h\""),
-    ("week", "a week is \"7 d\""),
+    ("month", "a month has no fixed length: 30 days are \"30 d\""),
+    ("months", "a month has no fixed length: 30 days are \"30 d\""),
 ];
 
 /// Help for a unit that is left out on purpose.
@@ -257,7 +295,7 @@ pub(crate) fn calendar(name: &str) -> Option<&'static str> {
 
 /// The unit that was probably meant by an unknown name.
 pub(crate) fn meant(name: &str) -> Option<String> {
-    if NO_SLIPS.contains(&name) || calendar(name).is_some() {
+    if calendar(name).is_some() {
         return None;
     }
     let lower = name.to_lowercase();

@@ -11,6 +11,7 @@ mod common;
 mod derivatives;
 mod distributions;
 mod enclosures;
+mod engineers;
 mod expressions;
 mod families;
 mod helps;

@@ -85,7 +85,9 @@ fn units_that_are_joined_otherwise_show_their_product() {
         ("12 W/(m**2*K)", None, unknown, "*", Some("did you mean \"12 W/(m^2 K)\"?")),
         ("7 K per W", None, unknown, "per", Some("did you mean \"7 K/W\"?")),
         ("25 Minuten", None, unknown, "Minuten", Some("did you mean \"25 min\"?")),
-        ("0.2 PS", None, unknown, "PS", None),
+        ("5 J/kg-K", None, unknown, "-", Some("did you mean \"5 J/(kg K)\"?")),
+        ("2 kgm2", None, unknown, "kgm2", Some("did you mean \"2 kg m^2\"?")),
+        ("2 J/g°C", None, unknown, "g°C", Some("did you mean \"2 J/(g °C)\"?")),
     ]);
 }
 

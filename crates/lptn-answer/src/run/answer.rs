@@ -6,7 +6,7 @@ use lptn_analysis::{LimitResult, Trusted};
 use lptn_netlist::{Diagnostic, Files, SavedState};
 use lptn_network::Parameter;
 use lptn_report::{Text, duration};
-use lptn_solve::{Lumping, Method, RunStatus, Solution, SteadyState, Table};
+use lptn_solve::{Beyond, Lumping, Method, RunStatus, Solution, SteadyState, Table};
 use lptn_study::{
     Environment, FileHash, LedgerRecord, Manifest, ParameterRecord, RunEnd, SiValue,
     StatisticsRecord, Sundials,
@@ -189,7 +189,16 @@ impl RunAnswer {
         let certain = self.uncertainty().map_or_else(Vec::new, |_| elsewhere(netlist));
         let lumps = lumping::warnings(netlist, &self.lumping);
         let beyond = trust::doubts(netlist, &self.solution.trust, true);
-        gaps(netlist, &self.table).into_iter().chain(beyond).chain(lumps).chain(certain).collect()
+        let steady = self.implausible_steady();
+        let all = gaps(netlist, &self.table).into_iter().chain(beyond).chain(steady);
+        all.chain(lumps).chain(certain).collect()
+    }
+
+    /// A steady state that no material stands, if the run itself is plausible.
+    fn implausible_steady(&self) -> Option<Diagnostic> {
+        let steady = self.steady.as_ref().ok().filter(|_| self.solution.trust.beyond.is_none())?;
+        let beyond = Beyond::of_steady(self.solution.network(), steady)?;
+        Some(trust::implausible(&self.task.input.netlist, &beyond, true))
     }
 
     /// Errors that are not bounded; a table has them in its notes.

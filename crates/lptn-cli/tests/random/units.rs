@@ -50,7 +50,7 @@ impl Kind {
             Self::Heat => &[("W", 1.0, 0.0), ("kW", 1e3, 0.0), ("mW", 1e-3, 0.0)],
             Self::Capacity => &[("J/K", 1.0, 0.0), ("kJ/K", 1e3, 0.0), ("W h/K", 3600.0, 0.0)],
             Self::Resistance => &[("K/W", 1.0, 0.0), ("mK/W", 1e-3, 0.0), ("K/kW", 1e-3, 0.0)],
-            Self::Conductance => &[("W/K", 1.0, 0.0), ("mW/K", 1e-3, 0.0), ("W/mK", 1e3, 0.0)],
+            Self::Conductance => &[("W/K", 1.0, 0.0), ("mW/K", 1e-3, 0.0), ("kW/K", 1e3, 0.0)],
             Self::Film => {
                 &[("W/(m^2 K)", 1.0, 0.0), ("W/(cm^2 K)", 1e4, 0.0), ("kW/(m^2 K)", 1e3, 0.0)]
             }
@@ -66,7 +66,7 @@ impl Kind {
                 &[("kg/s", 1.0, 0.0), ("g/s", 1e-3, 0.0), ("kg/h", 1.0 / 3600.0, 0.0)]
             }
             Self::VolumeFlow => &[("m^3/s", 1.0, 0.0), ("L/min", 1e-3 / 60.0, 0.0)],
-            Self::PerKelvin => &[("1/K", 1.0, 0.0), ("1/mK", 1e3, 0.0)],
+            Self::PerKelvin => &[("1/K", 1.0, 0.0), ("1/kK", 1e-3, 0.0)],
             Self::Speed => &[
                 ("rpm", 1.0, 0.0),
                 ("rad/s", 30.0 / std::f64::consts::PI, 0.0),

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use lptn_network::{Field, FluidId, Item, Lump, MaterialId, Value, Winding};
-use lptn_units::{Dimension, LookupTable, Type};
+use lptn_network::{Field, Fluid, FluidId, Item, Lump, Material, MaterialId, Value, Winding};
+use lptn_units::{Dimension, LookupTable, TableSymbol, Type};
 
 use super::Writer;
 use super::values::over_temperature;
@@ -62,7 +62,11 @@ impl Writer<'_> {
             Item::Fluid(id) => Some(id),
             _ => None,
         });
-        let used: BTreeSet<_> = streams.chain(films).collect();
+        let mut used: BTreeSet<_> = streams.chain(films).collect();
+        used.extend(network.fluid_ids().filter(|id| {
+            let fluid = &network.fluids()[id.index()];
+            self.is_called(&fluid.name, of_fluid(fluid))
+        }));
         for (id, fluid) in network.fluid_ids().zip(network.fluids()) {
             let source = fluid.source.as_deref();
             let shipped = library::fluids()
@@ -116,7 +120,11 @@ impl Writer<'_> {
             Item::Material(id) => Some(id),
             _ => None,
         });
-        let used: BTreeSet<MaterialId> = lumps.chain(bodies).collect();
+        let called = network.material_ids().filter(|id| {
+            let material = &network.materials()[id.index()];
+            self.is_called(&material.name, of_material(material))
+        });
+        let used: BTreeSet<MaterialId> = lumps.chain(bodies).chain(called).collect();
         let windings =
             used.iter().filter_map(|id| network.materials()[id.index()].winding.as_ref());
         let names = windings.flat_map(|of| [&of.wire, &of.resin].into_iter().chain(&of.enamel));
@@ -134,6 +142,29 @@ impl Writer<'_> {
         let texture = if material.winding.is_some() { Texture::Wires } else { Texture::Layers };
         let same = matches!(axial, Value::Expression(other) if Arc::ptr_eq(own, other));
         texture.word(same)
+    }
+
+    /// True if an expression calls a property of the fluid or material of this name.
+    fn is_called<'v>(&self, name: &str, properties: impl Iterator<Item = &'v Value>) -> bool {
+        let own: Vec<&LookupTable> = properties.filter_map(table_of).collect();
+        let mut tables = self.network.tables();
+        tables.any(|(call, symbol)| {
+            let of = call.rsplit_once('.').is_some_and(|(base, _)| base == name);
+            of && own.contains(&&*symbol.table)
+        })
+    }
+
+    /// True if a table of the network is a property of a fluid or material, which expressions call.
+    pub(super) fn is_property(&self, call: &str, symbol: &TableSymbol) -> bool {
+        let Some((name, key)) = call.rsplit_once('.') else { return false };
+        let network = &self.network;
+        let is = |table: &LookupTable| *table == *symbol.table;
+        let own = |property: &Value| table_of(property).is_some_and(is);
+        let shipped = library::find(name).into_iter().flat_map(|record| &record.film);
+        let mut shipped = shipped.filter(|(own, _)| own == key);
+        shipped.any(|(_, table)| is(&LookupTable::One(table.clone())))
+            || network.fluids().iter().any(|f| f.name == name && of_fluid(f).any(own))
+            || network.materials().iter().any(|m| m.name == name && of_material(m).any(own))
     }
 
     /// The materials and fluids whose properties paths use.
@@ -154,14 +185,27 @@ impl Writer<'_> {
             let material = &network.materials()[id.index()];
             material.k.iter().chain(&material.k_axis).any(same)
         };
-        let fluid = |id: &FluidId| {
-            let fluid = &network.fluids()[id.index()];
-            let film = fluid.film.iter().map(|(_, value)| value);
-            film.chain(&fluid.density).chain([&fluid.cp]).any(same)
-        };
+        let fluid = |id: &FluidId| of_fluid(&network.fluids()[id.index()]).any(same);
         let material = network.material_ids().find(material).map(Item::Material);
         material.or_else(|| network.fluid_ids().find(fluid).map(Item::Fluid))
     }
+}
+
+/// The properties of a fluid.
+fn of_fluid(fluid: &Fluid) -> impl Iterator<Item = &Value> {
+    let film = fluid.film.iter().map(|(_, value)| value);
+    film.chain(&fluid.density).chain([&fluid.cp])
+}
+
+/// The properties of a material that may depend on temperature.
+fn of_material(material: &Material) -> impl Iterator<Item = &Value> {
+    material.cp.iter().chain(&material.k).chain(&material.k_axis)
+}
+
+/// The table of a property that is one over its own temperature.
+fn table_of(property: &Value) -> Option<&LookupTable> {
+    let Value::Expression(program) = property else { return None };
+    program.table_calls().first().map(|call| &*call.table)
 }
 
 /// The parts of a winding.

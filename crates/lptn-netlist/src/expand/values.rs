@@ -65,7 +65,8 @@ impl Writer<'_> {
     pub(super) fn tables(&mut self) {
         let (network, mut fields) = (&self.network, TomlFields::default());
         for (name, symbol) in network.tables() {
-            if network.tables().any(|(other, _)| is_lubricant(other, name)) {
+            let is_of_lubricant = network.tables().any(|(other, _)| is_lubricant(other, name));
+            if is_of_lubricant || self.is_property(name, symbol) {
                 continue;
             }
             let written = match (&*symbol.table, self.map_of(&symbol.table)) {

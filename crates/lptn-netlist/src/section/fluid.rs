@@ -1,11 +1,9 @@
 //! `[fluid]`: the fluids of streams and films.
 
-use std::sync::Arc;
-
 use lptn_data::Diagnostic;
 use lptn_laws::{Carries, FieldDeclaration, Formula, Substance};
 use lptn_network::{Field, FluidId, Input, Item, LawField};
-use lptn_units::{Dimension, LookupTable, Quantity, TableSymbol, Type, Unit, suggest};
+use lptn_units::{Dimension, Quantity, Type, suggest};
 
 use crate::fields::Fields;
 use crate::format::{Role, SectionDeclaration, property};
@@ -13,7 +11,7 @@ use crate::library::{self, LibrarySubstance};
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawValue};
 use crate::section::keys::{CP_OF_FLUID, SOURCE_OF};
-use crate::section::table::of_temperature;
+use crate::section::table::{of_temperature, symbol};
 use crate::work::{Elaboration, KnownFluid, stand_in};
 
 pub(crate) const FLUID: SectionDeclaration = SectionDeclaration {
@@ -230,14 +228,7 @@ impl<'a> Elaboration<'a> {
 pub(super) fn table(record: &LibrarySubstance, key: &str) -> Option<Input> {
     let (property, table) = record.film.iter().find(|(own, _)| own == key)?;
     let ty = LawField::any(key)?.ty;
-    let units = [Unit::parse("K"), Unit::parse(&ty.usual_unit())];
-    let symbol = TableSymbol {
-        table: Arc::new(LookupTable::One(table.clone())),
-        arguments: vec![Type::ABSOLUTE_TEMPERATURE],
-        ty,
-        units: units.into_iter().flatten().collect(),
-    };
-    of_temperature(property, symbol, ty)
+    of_temperature(property, symbol(table, ty), ty)
 }
 
 /// Error for a fluid without such a property; `instead` names an alternative.

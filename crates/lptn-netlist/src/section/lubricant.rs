@@ -63,7 +63,7 @@ const VISCOSITY: Type = Type::of(Dimension::KINEMATIC_VISCOSITY);
 const DENSITY: Type = Type::of(Dimension::DENSITY);
 
 /// The endings of the properties of a lubricant.
-const PROPERTIES: [&str; 2] = ["nu", "density"];
+pub(super) const PROPERTIES: [&str; 2] = ["nu", "density"];
 
 /// Viscosities in m^2/s that ASTM D341 covers.
 const COVERED: [f64; 2] = [2e-6, 20.0];

@@ -27,6 +27,7 @@ mod path_law;
 mod path_section;
 mod placement;
 mod property;
+mod property_call;
 mod signal;
 mod source;
 mod state;

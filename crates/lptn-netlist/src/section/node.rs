@@ -17,6 +17,9 @@ use crate::work::{Elaboration, stand_in};
 pub(super) const START: KeyDeclaration =
     key("T0", ABSOLUTE, "temperature at the start", "\"25 degC\"").or("`T0` of `[default]`");
 
+const CAPACITY_OF_MASS: &str = "write the product of mass and specific heat, `C = \"2 [kg] * 900 \
+    [J/(kg K)]\"` instead of `mass`, or name a `material` with `mass`";
+
 pub(crate) const NODE: SectionDeclaration = SectionDeclaration {
     name: "node",
     sentence: "A body of one temperature, or a junction that stores no heat.",
@@ -37,6 +40,8 @@ pub(crate) const NODE: SectionDeclaration = SectionDeclaration {
             "a node's temperature is solved for: `T0` is its start, and a given temperature is a \
              [boundary]",
         ),
+        ("cp", CAPACITY_OF_MASS),
+        ("m", "the mass is `mass`, with a `material`"),
         ("L", "the characteristic length is `L_char`"),
         ("P", "heat is put in by a [source]: `name = { into = \"node\", P = \"100 W\" }`"),
     ],

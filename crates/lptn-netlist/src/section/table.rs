@@ -202,6 +202,17 @@ impl<'a> Elaboration<'a> {
         key: &str,
         ty: Type,
     ) -> Option<Input> {
+        let symbol = self.property_symbol(fields, key, ty)?;
+        of_temperature(key, symbol, ty)
+    }
+
+    /// The table of such a property.
+    pub(super) fn property_symbol(
+        &mut self,
+        fields: &Fields<'a>,
+        key: &str,
+        ty: Type,
+    ) -> Option<TableSymbol> {
         let entry = fields.entry(key)?;
         let inner = self.inner(&TABLE, fields.owner.inside(key), entry)?;
         let types = (Some(Type::ABSOLUTE_TEMPERATURE), Some(ty));
@@ -218,7 +229,18 @@ impl<'a> Elaboration<'a> {
             self.refuse("network::not_positive", message, &entry.value.span, help);
             return None;
         }
-        of_temperature(key, symbol, ty)
+        Some(symbol)
+    }
+}
+
+/// A table over temperature, with its usual units.
+pub(super) fn symbol(table: &Table1, ty: Type) -> TableSymbol {
+    let units = [Unit::parse("K"), Unit::parse(&ty.usual_unit())];
+    TableSymbol {
+        table: Arc::new(LookupTable::One(table.clone())),
+        arguments: vec![Type::ABSOLUTE_TEMPERATURE],
+        ty,
+        units: units.into_iter().flatten().collect(),
     }
 }
 

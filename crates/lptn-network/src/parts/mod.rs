@@ -17,6 +17,7 @@ mod grid_parts;
 pub(crate) mod grid_value;
 pub(crate) mod heat;
 pub(crate) mod hold;
+mod holding;
 mod inside;
 pub(crate) mod label;
 pub(crate) mod layout;

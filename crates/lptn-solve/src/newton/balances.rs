@@ -58,4 +58,24 @@ impl Newton<'_> {
     pub(super) fn left_over(&self) -> f64 {
         self.free.iter().map(|&i| self.flow[i].abs()).fold(0.0, f64::max)
     }
+
+    /// Solves the states with a balance first, at the temperatures of the start: without pressures
+    /// there are no flows, and without flows nothing determines a temperature. If that fails, the
+    /// search begins where it would have begun.
+    pub(super) fn balance_states(&self, work: &mut Workspace, temperatures: &mut [f64]) {
+        let network = self.system.network();
+        let balanced = |unknown: &usize| {
+            network.state_at(self.system.unknowns()[*unknown]).is_some_and(|state| state.balanced)
+        };
+        let first: Vec<usize> = self.free.iter().copied().filter(balanced).collect();
+        if first.is_empty() || first.len() == self.free.len() {
+            return;
+        }
+        let before = temperatures.to_vec();
+        let solved =
+            Self::new(self.system, first).and_then(|mut newton| newton.solve(work, temperatures));
+        if solved.is_err() {
+            temperatures.copy_from_slice(&before);
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! The dependence of a program on a slot, from the form of its code.
 
+use super::function::Function;
 use super::program::{Arithmetic, Op, Operand, Program};
 
 /// The dependence of a result on one variable.
@@ -17,8 +18,21 @@ impl Program {
     /// The dependence of the result on one slot, with the others fixed: an upper bound from the
     /// form of the code.
     pub fn degree_in(&self, slot: u32) -> Degree {
-        degree(&self.code, slot)
+        degree(&self.code, slot, Smooth::Everywhere)
     }
+
+    /// The same between the [kinks](Program::kinks) of `abs`, `min` and `max`: `abs(x) - 3` is
+    /// affine there.
+    pub fn degree_between_kinks(&self, slot: u32) -> Degree {
+        degree(&self.code, slot, Smooth::BetweenKinks)
+    }
+}
+
+/// The stretch over which a degree is that of the result.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Smooth {
+    Everywhere,
+    BetweenKinks,
 }
 
 /// A conditional part whose end has not been reached.
@@ -29,7 +43,7 @@ struct Branch {
 }
 
 /// Follows the code once, with degrees instead of values.
-fn degree(code: &[Op], slot: u32) -> Degree {
+fn degree(code: &[Op], slot: u32, smooth: Smooth) -> Degree {
     let mut stack: Vec<Degree> = Vec::new();
     let mut branches: Vec<Branch> = Vec::new();
     let mut current = Degree::Constant;
@@ -51,7 +65,7 @@ fn degree(code: &[Op], slot: u32) -> Degree {
                     branch.first = Some((current, end));
                 }
             }
-            _ => current = step(op, current, &mut stack, slot),
+            _ => current = step(op, current, &mut stack, (slot, smooth)),
         }
     }
     close(&mut branches, code.len(), current)
@@ -69,7 +83,16 @@ fn close(branches: &mut Vec<Branch>, index: usize, mut current: Degree) -> Degre
     current
 }
 
-fn step(op: &Op, current: Degree, stack: &mut Vec<Degree>, slot: u32) -> Degree {
+fn step(
+    op: &Op,
+    current: Degree,
+    stack: &mut Vec<Degree>,
+    (slot, smooth): (u32, Smooth),
+) -> Degree {
+    let combine = |arithmetic, left, right| match (arithmetic, smooth) {
+        (Arithmetic::Min | Arithmetic::Max, Smooth::BetweenKinks) => Degree::max(left, right),
+        _ => combine(arithmetic, left, right),
+    };
     let of = |operand: Operand| {
         if operand == Operand::Slot(slot) { Degree::Affine } else { Degree::Constant }
     };
@@ -81,6 +104,7 @@ fn step(op: &Op, current: Degree, stack: &mut Vec<Degree>, slot: u32) -> Degree 
             combine(arithmetic, stack.pop().unwrap_or(Degree::Nonlinear), current)
         }
         Op::WholePower(1) | Op::Negate => current,
+        Op::Call(Function::Abs) if smooth == Smooth::BetweenKinks => current,
         Op::PoppedPower | Op::PoppedTable(_) => {
             bent(stack.pop().unwrap_or(Degree::Nonlinear).max(current))
         }

@@ -195,6 +195,24 @@ impl Program {
         &self.kinks
     }
 
+    /// The same, with the end values of all tables outside their knots.
+    pub fn holding(&self) -> Self {
+        let each = |programs: &[Self]| programs.iter().map(Self::holding).collect::<Vec<_>>();
+        let table = |table: &Arc<LookupTable>| Arc::new(table.holding());
+        let named = |named: &NamedTable| NamedTable { table: table(&named.table), ..named.clone() };
+        let call = |call: &TableCall| TableCall {
+            table: table(&call.table),
+            arguments: each(&call.arguments),
+        };
+        Self {
+            tables: self.tables.iter().map(named).collect(),
+            comparisons: each(&self.comparisons),
+            kinks: each(&self.kinks),
+            table_calls: self.table_calls.iter().map(call).collect(),
+            ..self.clone()
+        }
+    }
+
     /// The calls of tables, inner ones before those around them and otherwise in the order of the
     /// text. In a branch that is not taken the programs of the arguments may fail to evaluate.
     pub fn table_calls(&self) -> &[TableCall] {

@@ -71,6 +71,15 @@ impl LookupTable {
         place(self.knots(argument), value, self.outside()).is_some()
     }
 
+    /// The same, with its end values outside its knots; a formula is as it is.
+    pub(crate) fn holding(&self) -> Self {
+        match self {
+            Self::One(table) => Self::One(table.holding()),
+            Self::Two(table) => Self::Two(table.holding()),
+            other => other.clone(),
+        }
+    }
+
     /// Its behaviour outside its knots.
     pub fn outside(&self) -> Outside {
         match self {

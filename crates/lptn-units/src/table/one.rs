@@ -28,6 +28,11 @@ pub struct Table1 {
 }
 
 impl Table1 {
+    /// The same, with its end values outside its knots.
+    pub(super) fn holding(&self) -> Self {
+        Self { outside: Outside::Hold, ..self.clone() }
+    }
+
     /// The function through the points `(x[i], y[i])`, `x` rising.
     ///
     /// # Errors

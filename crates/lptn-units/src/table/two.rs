@@ -31,6 +31,11 @@ struct Held {
 }
 
 impl Table2 {
+    /// The same, with its end values outside its knots.
+    pub(super) fn holding(&self) -> Self {
+        Self { outside: Outside::Hold, ..self.clone() }
+    }
+
     /// The function with the value `z[i * y.len() + j]` at `(x[i], y[j])`, `x` and `y` rising.
     ///
     /// # Errors
