@@ -40,6 +40,11 @@ pub trait Answer: Page {
         String::from_utf8(bytes).unwrap_or_default()
     }
 
+    /// A sentence for each reason why the answer is no, such as a broken limit.
+    fn reasons(&self) -> Vec<String> {
+        self.no().into_iter().collect()
+    }
+
     /// The exit class: [`Exit::No`] if the answer is no.
     fn exit(&self) -> Exit {
         if self.no().is_some() { Exit::No } else { Exit::Done }

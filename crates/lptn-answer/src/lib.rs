@@ -31,6 +31,7 @@ pub mod infer;
 pub mod input;
 pub mod limits;
 pub mod listener;
+pub mod loaded;
 pub mod lumping;
 pub mod messages;
 pub mod modes;
