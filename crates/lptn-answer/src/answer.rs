@@ -53,6 +53,7 @@ pub trait Answer: Page {
 
 #[cfg(test)]
 mod tests {
+    use crate::check::CheckAnswer;
     use crate::compare::CompareAnswer;
     use crate::cycle::CycleAnswer;
     use crate::fit::compare::FitCompareAnswer;
@@ -76,7 +77,7 @@ mod tests {
     #[test]
     fn answers_go_from_thread_to_thread() {
         fn sent<T: Send + 'static>() {}
-        sent::<(CompareAnswer, CycleAnswer)>();
+        sent::<(CheckAnswer, CompareAnswer, CycleAnswer)>();
         sent::<(FitCompareAnswer, FitLawAnswer, FitRunsAnswer, StatedLawsAnswer)>();
         sent::<(FitNetworkAnswer, FitStepAnswer)>();
         sent::<GearAnswer>();

@@ -15,6 +15,7 @@ pub mod answer;
 pub mod balance;
 pub mod belief;
 pub mod bound;
+pub mod check;
 pub mod compare;
 pub mod cycle;
 pub mod exit;

@@ -6,8 +6,8 @@ use lptn::{Format, Look, Picture, Rows, Table, problems_as_json, write};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
+use crate::subject::Found;
 use crate::trouble::Trouble;
-use crate::verbs::Found;
 
 /// Columns of characters of a text.
 const WIDTH: usize = 80;

@@ -7,9 +7,11 @@
 
 mod answer;
 mod asking;
+mod declaration;
 mod netlist;
 mod questions;
 mod simulation;
+mod subject;
 mod trouble;
 mod verbs;
 mod watching;

@@ -8,8 +8,9 @@ use pyo3::types::PyDict;
 
 use crate::answer::Answer;
 use crate::asking::{answered, failed};
+use crate::declaration::About;
 use crate::trouble::Trouble;
-use crate::verbs::{About, VERBS};
+use crate::verbs::named;
 use crate::words;
 
 /// A netlist with the values that were set when it was loaded.
@@ -55,12 +56,9 @@ impl Netlist {
         others: Vec<PathBuf>,
         words: &Bound<'_, PyDict>,
     ) -> PyResult<Answer> {
-        let mut verbs = VERBS.iter().filter(|verb| verb.name == name);
-        let verb = verbs.find(|verb| verb.about != About::Nothing);
-        let none = || Trouble::of_value(format!("a network has no question `{name}`"));
-        let verb = verb.ok_or_else(none)?;
+        let verb = named(name, |about| about != About::Nothing)?;
         let mut files = Vec::new();
-        if verb.about == About::Netlists {
+        if verb.declared.about == About::Netlists {
             let text =
                 || Trouble::of_type(format!("`{name}` reads files: load the network from a file"));
             files.push(self.file.clone().ok_or_else(text)?);

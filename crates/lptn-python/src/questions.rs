@@ -5,12 +5,19 @@ use std::sync::Arc;
 
 use lptn::*;
 
-use crate::asking::Asked;
+use crate::subject::{Asked, Found};
 use crate::trouble::Trouble;
-use crate::verbs::Found;
 use crate::words::{Words, whole};
 
 type Outcome = Result<Found, Trouble>;
+
+pub(crate) fn check(asked: &Asked<'_>, words: &Words) -> Outcome {
+    let question =
+        CheckQuestion { case: words.text("case"), set: asked.set(words), command: Vec::new() };
+    let missing = || Trouble::of_type("`check` needs one file".to_owned());
+    let [file] = asked.files.as_slice() else { return Err(missing()) };
+    Ok(Box::new(question.ask(file)?))
+}
 
 pub(crate) fn run(asked: &Asked<'_>, words: &Words) -> Outcome {
     let mut input = asked.input(words)?;

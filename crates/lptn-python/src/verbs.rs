@@ -1,98 +1,25 @@
-//! The questions of the command line: names, options, and the function that asks.
+//! The questions of the command line, each with the function that asks it.
 
-use crate::asking::Asked;
+use crate::declaration::{About, Declaration, Kind, Opt};
 use crate::questions as ask;
+use crate::subject::{Asked, Found};
 use crate::trouble::Trouble;
 use crate::words::Words;
 
-/// An answer of any question.
-pub(crate) type Found = Box<dyn lptn::Answer + Send + Sync>;
-
-/// Type of an option.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
-    /// A text, such as a quantity or a name.
-    Text,
-    /// One text or several.
-    Texts,
-    /// Given or not.
-    Flag,
-    /// A whole number.
-    Count,
-    /// Given, perhaps with a text.
-    FlagOrText,
-}
-
-impl Kind {
-    /// Words for it in messages.
-    pub(crate) fn words(self) -> &'static str {
-        match self {
-            Self::Text => "a text",
-            Self::Texts => "a text or a list of texts",
-            Self::Flag => "True or False",
-            Self::Count => "a whole number",
-            Self::FlagOrText => "True or a text",
-        }
-    }
-
-    /// Its type in Python.
-    pub(crate) fn python(self) -> &'static str {
-        match self {
-            Self::Text => "Text | None",
-            Self::Texts => "Text | Sequence[Text] | None",
-            Self::Flag => "bool",
-            Self::Count => "int | None",
-            Self::FlagOrText => "bool | Text | Sequence[Text]",
-        }
-    }
-}
-
-/// An option of a question.
-#[derive(Debug)]
-pub(crate) struct Opt {
-    /// Its name, that of the command line with `_` for `-`.
-    pub(crate) name: &'static str,
-    /// Its type.
-    pub(crate) kind: Kind,
-    /// Its meaning.
-    pub(crate) means: &'static str,
-}
-
-/// The things that a question is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum About {
-    /// One network: a method of it.
-    Network,
-    /// Netlists: a function, and a method of a network that is the first.
-    Netlists,
-    /// A record, points, or nothing: a function.
-    Nothing,
-}
-
 /// A question.
 pub(crate) struct Verb {
-    /// Its words on the command line.
-    pub(crate) name: &'static str,
-    /// Its purpose.
-    pub(crate) purpose: &'static str,
-    /// Its subject.
-    pub(crate) about: About,
-    /// The option that may be given without its name.
-    pub(crate) first: Option<&'static str>,
-    /// True if it takes parameters.
-    pub(crate) sets: bool,
-    /// Its options.
-    pub(crate) options: &'static [Opt],
+    /// Its name, subject and options.
+    pub(crate) declared: Declaration,
     /// Asks it.
     pub(crate) ask: fn(&Asked<'_>, &Words) -> Result<Found, Trouble>,
 }
 
-impl Verb {
-    /// The option of this name; `for_` is `for`, which Python reserves.
-    pub(crate) fn option(&self, name: &str) -> Option<&Opt> {
-        let name = name.strip_suffix('_').unwrap_or(name);
-        self.options.iter().find(|option| option.name == name)
-    }
+/// The question of this name whose subject is accepted.
+pub(crate) fn named(name: &str, accepted: fn(About) -> bool) -> Result<&'static Verb, Trouble> {
+    let mut found = VERBS.iter().map(|verb| (verb, &verb.declared));
+    let found = found.find(|(_, declared)| declared.name == name && accepted(declared.about));
+    let none = || Trouble::of_value(format!("there is no question `{name}` of this"));
+    found.map(|(verb, _)| verb).ok_or_else(none)
 }
 
 /// Options, one a line: name, type, meaning.
@@ -110,18 +37,23 @@ macro_rules! verbs {
     )*) => {
         /// All questions.
         pub(crate) static VERBS: &[Verb] = &[$(Verb {
-            name: $name,
-            purpose: $purpose,
-            about: About::$about,
-            first: $first,
-            sets: $sets,
-            options: options! { $($options)* },
+            declared: Declaration {
+                name: $name,
+                purpose: $purpose,
+                about: About::$about,
+                first: $first,
+                sets: $sets,
+                options: options! { $($options)* },
+            },
             ask: ask::$ask,
         },)*];
     };
 }
 
 verbs! {
+    Netlists "check" check "Check a netlist, and show all its problems", sets true, first None; {
+        case Text "the load case, [case.NAME]";
+    }
     Network "run" run "Simulate a network over time", sets true, first None; {
         case Text "the load case, [case.NAME]";
         stop Text "end of the run, such as \"2 h\"";

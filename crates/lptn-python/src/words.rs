@@ -4,8 +4,8 @@ use lptn::suggest;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
 
+use crate::declaration::{Declaration, Kind};
 use crate::trouble::Trouble;
-use crate::verbs::{Kind, Verb};
 
 /// A value of an option.
 #[derive(Clone, Debug)]
@@ -26,12 +26,15 @@ pub(crate) struct Words {
     pub(crate) set: Vec<String>,
 }
 
+/// Takes a word of a dictionary.
+type Take<'a> = dyn FnMut(&mut Words, &str, &Bound<'_, PyAny>) -> Result<(), Trouble> + 'a;
+
 impl Words {
     /// Sorts keyword arguments: names of options, else names of parameters.
     ///
     /// `set` is a dictionary of parameters and `options` one of options, for names that are both.
     pub(crate) fn sorted(
-        verb: &'static Verb,
+        verb: &Declaration,
         given: &Bound<'_, PyDict>,
         is_parameter: &dyn Fn(&str) -> bool,
     ) -> Result<Self, Trouble> {
@@ -59,11 +62,7 @@ impl Words {
         Ok(words)
     }
 
-    fn each(
-        &mut self,
-        given: &Bound<'_, PyAny>,
-        take: &mut dyn FnMut(&mut Self, &str, &Bound<'_, PyAny>) -> Result<(), Trouble>,
-    ) -> Result<(), Trouble> {
+    fn each(&mut self, given: &Bound<'_, PyAny>, take: &mut Take<'_>) -> Result<(), Trouble> {
         let given = given.cast::<PyDict>().map_err(PyErr::from)?;
         for (name, value) in given {
             take(self, &name.extract::<String>()?, &value)?;
@@ -74,7 +73,7 @@ impl Words {
     /// A name that is not an option: a parameter, unless it is nearly an option.
     fn unknown(
         &mut self,
-        verb: &Verb,
+        verb: &Declaration,
         name: &str,
         value: &Bound<'_, PyAny>,
         is_parameter: &dyn Fn(&str) -> bool,
@@ -103,7 +102,7 @@ impl Words {
 
     fn option(
         &mut self,
-        verb: &'static Verb,
+        verb: &Declaration,
         name: &str,
         value: &Bound<'_, PyAny>,
     ) -> Result<(), Trouble> {

@@ -31,6 +31,7 @@ def method_name(question: str) -> str: ...
 
 class Questions:
     _netlist: _lptn.Netlist
+    _set: dict[str, Any]
 '''
 
 

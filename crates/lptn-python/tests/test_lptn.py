@@ -120,6 +120,8 @@ class Refusals(unittest.TestCase):
             (lambda: net.run(samples=64), "uncertainty"),
             (lambda: lptn.fit_step("a.csv", colum="x"), "column"),
             (lambda: lptn.compare(net), "text"),
+            (lambda: lptn.load(GEARBOX, G_out="4 W/K").compare(GEARBOX), "every netlist"),
+            (lambda: lptn.compare(lptn.load(GEARBOX, G_out="4 W/K")), "parameters"),
         ]:
             with self.assertRaises(TypeError) as caught:
                 call()

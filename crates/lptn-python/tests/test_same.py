@@ -24,7 +24,8 @@ ALL = sorted(NETWORKS.glob("*.toml")) + [NETWORKS / "lap" / "lap.toml"]
 
 def program(*words):
     """What the program prints, and its exit code."""
-    words = [PROGRAM, *words, "--no-files", "--format", "json"]
+    files = [] if words[0] == "check" else ["--no-files"]
+    words = [PROGRAM, *words, *files, "--format", "json"]
     done = subprocess.run(words, capture_output=True, cwd=NETWORKS.parent, check=False)
     return done.stdout.decode(), done.returncode
 
@@ -61,6 +62,14 @@ class Same(unittest.TestCase):
                 net = lptn.load(file)
                 there += self.same([*words(file)], lambda net=net: ask(net))
         self.assertGreaterEqual(there, least)
+
+    def test_check(self):
+        self.each(lambda file: ["check", file], lambda net: net.check(), 38)
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "wrong.toml"
+            file.write_text((NETWORKS / "gearbox.toml").read_text().replace("steel =", "stel ="))
+            self.assertTrue(self.same(["check", file], lambda: lptn.check(file)))
+            self.assertFalse(lptn.check(file).ok)
 
     def test_run(self):
         self.each(lambda file: ["run", file], lambda net: net.run(), 30)
@@ -159,7 +168,7 @@ class Same(unittest.TestCase):
         """Options are those of the help, but for files, formats and values that are set."""
         left_out = {"set", "format", "no_files", "output", "report", "write", "quiet", "verbose"}
         left_out |= {"color", "plot", "help", "resume", "worst", "recover", "follow", "decimal"}
-        left_out |= {"dates", "start", "unit", "posterior", "at", "slurm", "version"}
+        left_out |= {"expand", "dates", "start", "unit", "posterior", "at", "slurm", "version"}
         for name, *_, options in _lptn.questions():
             done = subprocess.run(
                 [PROGRAM, *name.split(), "--help"], capture_output=True, text=True, check=True

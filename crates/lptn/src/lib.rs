@@ -41,6 +41,7 @@ pub use error::Error;
 pub use lptn_answer::{
     answer::Answer,
     belief::Belief,
+    check::{CheckAnswer, CheckQuestion},
     compare::{CompareAnswer, CompareQuestion},
     cycle::{CycleAnswer, CycleQuestion},
     exit::Exit,
@@ -51,7 +52,7 @@ pub use lptn_answer::{
     fit::step::{FitStepAnswer, FitStepQuestion},
     fit::terms::{FitTermsAnswer, FitTermsQuestion},
     gear::{GearAnswer, GearQuestion},
-    graph::{Drawn, GraphAnswer, GraphQuestion, Kind as GraphKind},
+    graph::{GraphAnswer, GraphQuestion},
     impedance::{Form as ImpedanceForm, ImpedanceAnswer, ImpedanceQuestion},
     infer::{InferAnswer, InferQuestion},
     input::{Input, quantity},

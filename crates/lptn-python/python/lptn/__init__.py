@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from . import _lptn
 from ._lptn import __version__
 from ._messages import Doubt, Error, Fix, Place, Problem
 from ._network import Network, Simulation, asked, load, parse
@@ -28,6 +27,7 @@ __all__ = [
     "Simulation",
     "Table",
     "__version__",
+    "check",
     "compare",
     "fit_compare",
     "fit_law",
@@ -36,6 +36,11 @@ __all__ = [
     "parse",
     "size",
 ]
+
+
+def check(file: Any, **words: Any) -> Result:
+    """Checks a netlist and shows all its problems; `result.ok` is false if there are errors."""
+    return asked("check", [file], words)
 
 
 def compare(*netlists: Any, **words: Any) -> Result:

@@ -30,7 +30,7 @@ def _none(result: Result) -> Problem:
 
 def paths(netlists: tuple[Any, ...]) -> list[str]:
     """The files of netlists: names, paths, or networks that were loaded from files."""
-    files = []
+    files: list[str] = []
     for netlist in netlists:
         if getattr(netlist, "_set", None):
             raise TypeError("a network with parameters is not a file: name the file, and write set={}")
@@ -47,6 +47,8 @@ def _method(name: str, first: str | None, several: bool) -> Any:
     def ask(self: Any, *given: Any, **words: Any) -> Result:
         others: list[str] = []
         if several:
+            if given and self._set:
+                raise TypeError(f"{name}() would set the parameters of {self!r} in every netlist")
             others = paths(given)
         elif given:
             if first is None or len(given) > 1 or first in words:
@@ -61,6 +63,7 @@ class Questions:
     """The questions of the command line, each a method; `_lptn.questions` declares them."""
 
     _netlist: _lptn.Netlist
+    _set: dict[str, Any]
 
 
 def _declare() -> None:

@@ -20,6 +20,16 @@ def method_name(question: str) -> str: ...
 
 class Questions:
     _netlist: _lptn.Netlist
+    _set: dict[str, Any]
+    def check(
+        self,
+        *netlists: Netlist,
+        case: Text | None = None,
+        set: dict[str, Any] | None = None,
+        options: dict[str, Any] | None = None,
+        **parameters: Text,
+    ) -> Result:
+        """Check a netlist, and show all its problems: `lptn check`."""
     def run(
         self,
         *,

@@ -11,8 +11,6 @@ from . import _lptn
 from ._messages import Problem, problems
 
 if TYPE_CHECKING:
-    import numpy as np
-
     from ._column import Column
 
 # Most rows of a table in a notebook.
@@ -63,8 +61,9 @@ class Table:
         return iter(self.names)
 
     def __len__(self) -> int:
-        names = self.names
-        first = self[names[0]] if names else []
+        if not self.names:
+            return 0
+        first: Any = self[self.names[0]]
         return len(first) if getattr(first, "ndim", 1) else 1
 
     def __getitem__(self, name: str) -> Any:
@@ -163,7 +162,7 @@ class Result:
         """The same object, read."""
         if self._data is None:
             self._data = json.loads(self._answer.json())
-        return self._data
+        return self._data or {}
 
     def csv(self) -> str:
         """The rows that `--format csv` prints."""
