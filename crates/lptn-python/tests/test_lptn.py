@@ -205,6 +205,9 @@ class Work(unittest.TestCase):
 
     def test_ctrl_c_ends_a_run(self):
         net = lptn.load(NETWORKS / "thermostat.toml")
+        # a shell ignores it for jobs in the background
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
         timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
         begun = time.monotonic()
         timer.start()
