@@ -12,7 +12,9 @@
 #              METAMORPHIC_FROM (1000) on, about an hour on two cores; the smallest network that differs is printed
 # make fuzz    feeds six readers with inputs guided by coverage, FUZZ_MINUTES (5) each; fuzz/run says how
 # make dist    packs one program that runs on any Linux for x86-64, with manual pages, completions and networks, and a
-#              Python wheel of it: target/dist. See docs/install.md
+#              Python wheel of it: target/dist and target/wheels. See docs/install.md
+# make wheel   packs the Python module and the program in one wheel, target/wheels: pip install target/wheels/lptn-*.whl
+# make test-wheel   the same, installs it into an empty environment and runs the tests of the package
 # make book    installs mdBook if it is missing and builds docs/ as a book, target/book/index.html, equations as MathML
 # make check-wasm  builds the core, which knows no C, for WebAssembly; says SKIPPED where no Rust can
 # SUNDIALS=bundled make demo    builds SUNDIALS itself: needs gcc, cmake and libclang only
@@ -21,7 +23,7 @@ SUNDIALS ?= system
 export SUNDIALS
 features = $(if $(filter bundled,$(SUNDIALS)),--features lptn-cli/bundled)
 
-.PHONY: demo test test-kills test-slurm test-hyperqueue build dist book setup setup-tests setup-bench bench bench-all bench-micro audit fuzz metamorphic mutants check-wasm clean
+.PHONY: demo test test-kills test-slurm test-hyperqueue build dist wheel test-wheel book setup setup-tests setup-bench bench bench-all bench-micro audit fuzz metamorphic mutants check-wasm clean
 
 demo: build
 	./target/release/lptn run networks/gearbox.toml
@@ -31,6 +33,12 @@ build: setup
 
 dist:
 	@./.ci/dist
+
+wheel: build
+	@./.ci/wheel
+
+test-wheel: wheel
+	@./.ci/test-wheel
 
 test: setup-tests
 	cargo test --workspace --locked $(features)

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// From the ground up: a crate may use only those before it.
-const ORDER: [&str; 20] = [
+const ORDER: [&str; 21] = [
     "lptn-units",
     "lptn-plot",
     "lptn-laws",
@@ -25,6 +25,7 @@ const ORDER: [&str; 20] = [
     "lptn-graph",
     "lptn-answer",
     "lptn",
+    "lptn-python",
     "lptn-cli",
 ];
 
@@ -85,7 +86,8 @@ fn arrows_point_down_only() {
     for (name, uses) in &arrows {
         for used in uses {
             assert!(place(used) < place(name), "{name} uses {used}, which stands above it");
-            assert!(used != "lptn" || name == "lptn-cli", "{name} uses the facade");
+            let client = ["lptn-python", "lptn-cli"].contains(&name.as_str());
+            assert!(used != "lptn" || client, "{name} uses the facade");
         }
     }
 }
@@ -308,7 +310,7 @@ fn the_facade_is_a_page() {
         list.split([',', '{', '}']).map(str::trim).filter(|name| !name.ends_with("::"))
     });
     let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
-    assert!((100..=180).contains(&names.len()), "{} items", names.len());
+    assert!((100..=190).contains(&names.len()), "{} items", names.len());
 }
 
 /// `?` makes an `lptn::Error` of whatever a call returns. Those of the integrator stand inside of

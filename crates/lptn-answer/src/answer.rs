@@ -40,6 +40,11 @@ pub trait Answer: Page {
         String::from_utf8(bytes).unwrap_or_default()
     }
 
+    /// A sentence for each reason why the answer is no, such as a broken limit.
+    fn reasons(&self) -> Vec<String> {
+        self.no().into_iter().collect()
+    }
+
     /// The exit class: [`Exit::No`] if the answer is no.
     fn exit(&self) -> Exit {
         if self.no().is_some() { Exit::No } else { Exit::Done }
@@ -48,6 +53,7 @@ pub trait Answer: Page {
 
 #[cfg(test)]
 mod tests {
+    use crate::check::CheckAnswer;
     use crate::compare::CompareAnswer;
     use crate::cycle::CycleAnswer;
     use crate::fit::compare::FitCompareAnswer;
@@ -71,7 +77,7 @@ mod tests {
     #[test]
     fn answers_go_from_thread_to_thread() {
         fn sent<T: Send + 'static>() {}
-        sent::<(CompareAnswer, CycleAnswer)>();
+        sent::<(CheckAnswer, CompareAnswer, CycleAnswer)>();
         sent::<(FitCompareAnswer, FitLawAnswer, FitRunsAnswer, StatedLawsAnswer)>();
         sent::<(FitNetworkAnswer, FitStepAnswer)>();
         sent::<GearAnswer>();

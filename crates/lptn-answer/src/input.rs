@@ -25,7 +25,7 @@ pub const RESULT: &str = "result.csv";
 const STDIN: &str = "<stdin>";
 
 /// The bytes of a netlist and their names.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Given {
     /// The text as it was read.
     pub bytes: Vec<u8>,
@@ -90,7 +90,7 @@ fn example(folder: &Path) -> Option<String> {
 }
 
 /// A network with everything that was set in it.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Input {
     /// The file.
     pub text: Given,
@@ -168,10 +168,22 @@ impl Input {
     pub fn open(
         file: &Path,
         belief: &Belief<'_>,
+        settings: (Option<&str>, &[String]),
+    ) -> Result<Self, Failure> {
+        let text = read(file)?;
+        let netlist = parse(&text)?;
+        Self::of((text, netlist), belief, settings)
+    }
+
+    /// Sets values in a netlist that was parsed, in the order of [`Input::open`].
+    ///
+    /// # Errors
+    /// All problems of the values.
+    pub fn of(
+        (mut text, mut netlist): (Given, Netlist),
+        belief: &Belief<'_>,
         (case, assignments): (Option<&str>, &[String]),
     ) -> Result<Self, Failure> {
-        let mut text = read(file)?;
-        let mut netlist = parse(&text)?;
         belief.take(&mut netlist)?;
         let set = apply(&mut netlist, &text, (case, assignments))?;
         if let Some(case) = case {

@@ -40,11 +40,12 @@ use common::Folder;
 use pages::{Block, blocks, pages};
 
 /// What a block that is not run may hold, and why it is not run.
-const BY_HAND: [(&str, &str); 8] = [
+const BY_HAND: [(&str, &str); 9] = [
     ("make ", "builds everything"),
     ("git clone", "needs the network"),
     ("cd ", "follows a clone"),
     ("mkdir ", "is part of an installation"),
+    ("pip install ", "needs the wheel; .ci/test-wheel does it"),
     ("cargo ", "builds everything"),
     ("LPTN_BLESS=1 cargo ", "builds everything"),
     ("sed ", "prepares a measurement"),

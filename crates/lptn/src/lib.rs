@@ -41,6 +41,7 @@ pub use error::Error;
 pub use lptn_answer::{
     answer::Answer,
     belief::Belief,
+    check::{CheckAnswer, CheckQuestion},
     compare::{CompareAnswer, CompareQuestion},
     cycle::{CycleAnswer, CycleQuestion},
     exit::Exit,
@@ -52,12 +53,14 @@ pub use lptn_answer::{
     fit::terms::{FitTermsAnswer, FitTermsQuestion},
     gear::{GearAnswer, GearQuestion},
     graph::{GraphAnswer, GraphQuestion},
-    impedance::{ImpedanceAnswer, ImpedanceQuestion},
+    impedance::{Form as ImpedanceForm, ImpedanceAnswer, ImpedanceQuestion},
     infer::{InferAnswer, InferQuestion},
-    input::Input,
+    input::{Input, quantity},
     limits::Verdict,
     listener::{Listener, Nobody, Which},
+    loaded::Loaded,
     lumping::Detail,
+    messages::list as problems_as_json,
     modes::{ModesAnswer, ModesQuestion},
     plan::{PlanAnswer, PlanQuestion},
     rank::{Over, RankAnswer, RankQuestion},
@@ -71,7 +74,7 @@ pub use lptn_answer::{
 };
 /// Pages in their formats.
 pub use lptn_report::{
-    Format, Look, Page, Report, Rows, Text, TimeUnit, report_of, write, write_csv,
+    Format, Look, Page, Picture, Report, Rows, Text, TimeUnit, report_of, write, write_csv,
 };
 
 /// Numbers without pages, and simulations that are stepped.
@@ -90,7 +93,7 @@ pub use lptn_solve::{
 
 /// Networks and netlists.
 pub use lptn_netlist::{
-    Diagnostic, Files, Label, Netlist, ReadError, Rejected, Severity, Span, parse, read,
+    CsvOptions, Diagnostic, Files, Label, Netlist, ReadError, Rejected, Severity, Span, parse, read,
 };
 pub use lptn_network::{
     BoundaryId, BuildError, BuildErrors, Conductance, ConductorId, ConductorKind, Face,
@@ -98,11 +101,13 @@ pub use lptn_network::{
     NetworkBuilder, NodeId, OutputTimes, ParameterId, Parameters, Path, Resistance, RunSettings,
     SourceId, Temperature, Time,
 };
-pub use lptn_units::{Dimension, Problem, Quantity, Type, Unit, UnitError, parse_quantity};
+pub use lptn_units::{
+    Dimension, Problem, Quantity, Type, Unit, UnitError, parse_quantity, suggest,
+};
 
 /// Reduction, fits and studies on numbers.
 pub use lptn_fit::{law, network as network_fit, step};
-pub use lptn_reduce::{Definition, Reduction, ReductionOptions, fit_exponential};
+pub use lptn_reduce::{Definition, Judge, Reduction, ReductionOptions, fit_exponential};
 pub use lptn_study::{Candidate, SortKey};
 
 /// The names that a program uses most often.

@@ -197,6 +197,10 @@ impl Answer for CycleAnswer {
         [self.run.task.input.netlist.warnings.as_slice(), &self.beside()].concat()
     }
 
+    fn reasons(&self) -> Vec<String> {
+        self.run.verdict().broken
+    }
+
     fn exit(&self) -> Exit {
         if self.run.verdict().holds() { Exit::Done } else { Exit::No }
     }

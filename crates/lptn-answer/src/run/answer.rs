@@ -55,6 +55,10 @@ impl Answer for RunAnswer {
         [warnings.as_slice(), &self.bounds(), &self.found()].concat()
     }
 
+    fn reasons(&self) -> Vec<String> {
+        self.verdict().broken
+    }
+
     fn exit(&self) -> Exit {
         match self.failed() {
             Some(failure) => failure.exit,

@@ -105,6 +105,10 @@ impl Answer for SteadyAnswer {
         [self.input.netlist.warnings.as_slice(), &self.noted(), &self.beside()].concat()
     }
 
+    fn reasons(&self) -> Vec<String> {
+        Verdict::of(&self.judgement()).broken
+    }
+
     fn exit(&self) -> Exit {
         if Verdict::of(&self.judgement()).holds() { Exit::Done } else { Exit::No }
     }

@@ -292,6 +292,15 @@ impl Page for SweepAnswer {
         text
     }
 
+    /// The rows that are in memory; those of a file are there already.
+    fn rows(&self) -> lptn_report::Rows<'_> {
+        let Rows::Kept(bytes) = &self.rows else { return lptn_report::Rows::Words(Vec::new()) };
+        let text = String::from_utf8_lossy(bytes);
+        let cells = |line: &str| line.split(',').map(str::to_owned).collect();
+        let rows = [self.asked.header()].into_iter().chain(text.lines().map(cells));
+        lptn_report::Rows::Words(rows.collect())
+    }
+
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let study = self.asked.study();
         self.asked.input.head(json, &[])?;

@@ -2,14 +2,16 @@
 
 use std::ops::{ControlFlow, Range};
 
-use lptn_netlist::SweepOver;
+use lptn_netlist::{Diagnostic, SweepOver};
 use lptn_report::CsvLines;
-use lptn_solve::{Proceed, in_order};
+use lptn_solve::{Proceed, available_threads, in_order};
 use lptn_study::sweep::{Candidate, LinearSweep};
 
 use super::asked::SweepAsked;
+use super::page::{Rows, SweepAnswer};
 use super::row::Row;
 use super::tally::Tally;
+use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::listener::Listener;
 
@@ -30,6 +32,29 @@ struct Chunk {
 pub type Sink<'a> = dyn FnMut(&[u8]) -> Result<(), Failure> + 'a;
 
 impl SweepAsked {
+    /// Solves all cases on this number of threads, or on all, and keeps their rows in memory.
+    ///
+    /// # Errors
+    /// An interruption.
+    pub fn in_memory(
+        self,
+        threads: Option<usize>,
+        listener: &dyn Listener,
+    ) -> Result<SweepAnswer, Failure> {
+        let (mut tally, mut kept) = (self.tally(), Vec::new());
+        let mut sink = |rows: &[u8]| {
+            kept.extend_from_slice(rows);
+            Ok(())
+        };
+        let from = (self.range.start, threads.unwrap_or_else(available_threads));
+        if self.solve(from, (&mut tally, &mut sink), listener)? {
+            let message = format!("interrupted after {} candidates", tally.rows);
+            let problem = Diagnostic::error("run::interrupted", message);
+            return Err(Failure::new(Exit::Interrupted, problem));
+        }
+        Ok(SweepAnswer { asked: self, tally, rows: Rows::Kept(kept) })
+    }
+
     /// Solves the cases from `from` on and passes their rows to `sink`, in order.
     /// True if an interruption ended it early.
     ///

@@ -1,0 +1,87 @@
+"""Columns of a result as arrays of NumPy with a unit."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from . import _lptn
+
+
+class Column(np.ndarray):
+    """Values of a column in the unit that is shown, as an array of NumPy.
+
+    `name` and `unit` are those of the column, `si` has the values in SI units (temperatures in K).
+    `index` is the column of times, if there is one. Arithmetic gives plain arrays.
+    """
+
+    name: str
+    unit: str
+    index: Column | None
+
+    def __array_finalize__(self, obj: Any) -> None:
+        self.name = getattr(obj, "name", "")
+        self.unit = getattr(obj, "unit", "")
+        index = getattr(obj, "index", None)
+        # a part of a column has other times
+        self.index = index if index is not None and index.shape == self.shape else None
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **kwargs: Any) -> Any:
+        # a product or a difference has another unit: it is a plain array
+        def plain(x: Any) -> Any:
+            return x.view(np.ndarray) if isinstance(x, Column) else x
+
+        if "out" in kwargs:
+            kwargs["out"] = tuple(plain(x) for x in kwargs["out"])
+        return getattr(ufunc, method)(*(plain(x) for x in inputs), **kwargs)
+
+    @property
+    def si(self) -> np.ndarray:
+        """The values in SI units, temperatures in K."""
+        scale, offset, _ = _lptn.unit(self.unit or "1")
+        return (np.asarray(self) + offset) * scale
+
+    @property
+    def si_unit(self) -> str:
+        """The SI unit of the values."""
+        return _lptn.unit(self.unit or "1")[2]
+
+    def plot(self, ax: Any = None, **words: Any) -> Any:
+        """Draws the column over time with matplotlib, and returns the axes."""
+        import matplotlib.pyplot as plt
+
+        ax = plt.gca() if ax is None else ax
+        words.setdefault("label", self.name)
+        values = np.atleast_1d(np.asarray(self))
+        if self.index is None:
+            ax.plot(values, **words)
+        else:
+            ax.plot(np.asarray(self.index), values, **words)
+            ax.set_xlabel(f"{self.index.name} [{self.index.unit}]")
+        ax.set_ylabel(f"{self.name} [{self.unit}]")
+        return ax
+
+    def __repr__(self) -> str:
+        if self.ndim == 0:
+            return f"{self.name} = {self.item():.6g} {self.unit}"
+        values = np.array2string(np.asarray(self), threshold=12, edgeitems=3, precision=4)
+        return f"{self.name} [{self.unit}] {values}"
+
+    def __str__(self) -> str:
+        return f"{self.item()}" if self.ndim == 0 else np.array2string(np.asarray(self))
+
+    def __reduce__(self) -> Any:
+        return (column, (self.name, self.unit, np.asarray(self).copy(), self.index))
+
+
+def column(name: str, unit: str, values: Any, index: Column | None = None) -> Column:
+    """A column of these values."""
+    made = np.asarray(values, dtype=float).view(Column)
+    made.name, made.unit, made.index = name, unit, index
+    return made
+
+
+def of_bytes(name: str, unit: str, data: bytes, index: Column | None = None) -> Column:
+    """A column of these bytes, which are not copied."""
+    return column(name, unit, np.frombuffer(data, dtype=np.float64), index)

@@ -1,0 +1,128 @@
+"""Problems of a question: errors are exceptions, doubts are warnings."""
+
+from __future__ import annotations
+
+import json
+import warnings
+from typing import Any
+
+
+class Place:
+    """A place in a netlist: file, line and column from 1, and the text there."""
+
+    def __init__(self, data: dict[str, Any]) -> None:
+        self.file: str = data["file"]
+        self.line: int = data["line"]
+        self.column: int = data["column"]
+        self.end_line: int = data["end_line"]
+        self.end_column: int = data["end_column"]
+        self.text: str = data["text"]
+        self.label: str = data.get("label", "")
+        self.primary: bool = data.get("primary", True)
+
+    def __repr__(self) -> str:
+        return f"{self.file}:{self.line}:{self.column}"
+
+
+class Fix:
+    """The text to write, and the place whose text it replaces (`None`: an argument)."""
+
+    def __init__(self, data: dict[str, Any]) -> None:
+        self.text: str = data["text"]
+        self.place: Place | None = Place(data["place"]) if data.get("place") else None
+
+    def __repr__(self) -> str:
+        return self.text if self.place is None else f"{self.place.text} -> {self.text}"
+
+
+class Problem:
+    """A problem: its code, sentence, places, help and fix."""
+
+    def __init__(self, data: dict[str, Any]) -> None:
+        self.code: str = data["code"]
+        self.severity: str = data["severity"]
+        self.message: str = data["message"]
+        self.help: str | None = data.get("help")
+        self.notes: list[str] = data.get("notes", [])
+        self.places: list[Place] = [Place(place) for place in data.get("places", [])]
+        self.fix: Fix | None = Fix(data["fix"]) if data.get("fix") else None
+
+    def __str__(self) -> str:
+        primary = [place for place in self.places if place.primary]
+        where = f"{primary[0]!r}: " if primary else ""
+        help = f"\n  help: {self.help}" if self.help else ""
+        return f"{where}{self.message} [{self.code}]{help}"
+
+    def __repr__(self) -> str:
+        return f"<{self.severity} {self.code}>"
+
+
+def problems(text: str | None) -> list[Problem]:
+    """The problems of a list in JSON."""
+    return [Problem(data) for data in json.loads(text)] if text else []
+
+
+class Error(Exception):
+    """A question without a whole answer.
+
+    `code`, `message`, `places`, `help` and `fix` are those of the first problem; `errors` has all.
+    `exit` is the exit code of the command. `result` is the part that was computed, if there is one.
+    """
+
+    def __init__(
+        self,
+        errors: list[Problem],
+        exit: int = 2,
+        doubts: list[Problem] | None = None,
+        result: Any = None,
+    ) -> None:
+        super().__init__("\n".join(str(error) for error in errors))
+        self.errors = errors
+        self.exit = exit
+        self.doubts = doubts or []
+        self.result = result
+
+    @classmethod
+    def _of(cls, errors: str, exit: int, doubts: str) -> Error:
+        return cls(problems(errors), exit, problems(doubts))
+
+    @property
+    def code(self) -> str:
+        return self.errors[0].code if self.errors else ""
+
+    @property
+    def message(self) -> str:
+        return self.errors[0].message if self.errors else ""
+
+    @property
+    def help(self) -> str | None:
+        return self.errors[0].help if self.errors else None
+
+    @property
+    def places(self) -> list[Place]:
+        return self.errors[0].places if self.errors else []
+
+    @property
+    def fix(self) -> Fix | None:
+        return self.errors[0].fix if self.errors else None
+
+    def __reduce__(self) -> Any:
+        return (Error, (self.errors, self.exit, self.doubts))
+
+
+class Doubt(UserWarning):
+    """A doubt about a result that is there: `problem` has its code, places and help."""
+
+    def __init__(self, problem: Problem) -> None:
+        super().__init__(str(problem))
+        self.problem = problem
+        self.code = problem.code
+        self.places = problem.places
+        self.help = problem.help
+        self.fix = problem.fix
+
+
+def warn(doubts: list[Problem], stacklevel: int) -> None:
+    """Warns of each doubt at the line of the caller."""
+    for doubt in doubts:
+        warnings.warn(Doubt(doubt), stacklevel=stacklevel + 1)

@@ -1,0 +1,88 @@
+"""Questions to a network."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from . import _lptn
+from ._messages import Error, Problem, warn
+from ._result import Result
+
+
+def answered(answer: _lptn.Answer, question: str, words: dict[str, Any], level: int) -> Result:
+    """The result of an answer; doubts are warnings, an answer that is not whole is an error."""
+    scalar = question == "steady" and not words.get("periodic")
+    result = Result(answer, question, scalar)
+    exit = answer.exit()
+    if exit > 1:
+        errors = [Problem(data) for data in result.data.get("errors", [])]
+        raise Error(errors or [_none(result)], exit, result.doubts, result)
+    if answer.doubts() is not None:
+        warn(result.doubts, level + 1)
+    return result
+
+
+def _none(result: Result) -> Problem:
+    message = "; ".join(result.verdict) or "the answer is not whole"
+    return Problem({"code": "", "severity": "error", "message": message})
+
+
+def paths(netlists: tuple[Any, ...]) -> list[str]:
+    """The files of netlists: names, paths, or networks that were loaded from files."""
+    files: list[str] = []
+    for netlist in netlists:
+        if getattr(netlist, "_set", None):
+            raise TypeError("a network with parameters is not a file: name the file, and write set={}")
+        file = getattr(netlist, "file", netlist)
+        if file is None:
+            raise TypeError("a network from a text is not a file: write it into one")
+        files.append(os.fspath(file))
+    return files
+
+
+def _method(name: str, first: str | None, several: bool) -> Any:
+    """A method of this question. `first` is the option that needs no name."""
+
+    def ask(self: Any, *given: Any, **words: Any) -> Result:
+        others: list[str] = []
+        if several:
+            if given and self._set:
+                raise TypeError(f"{name}() would set the parameters of {self!r} in every netlist")
+            others = paths(given)
+        elif given:
+            if first is None or len(given) > 1 or first in words:
+                raise TypeError(f"{name}() takes no such argument without a name")
+            words[first] = given[0]
+        return answered(self._netlist.ask(name, others, words), name, words, 2)
+
+    return ask
+
+
+class Questions:
+    """The questions of the command line, each a method; `_lptn.questions` declares them."""
+
+    _netlist: _lptn.Netlist
+    _set: dict[str, Any]
+
+
+def _declare() -> None:
+    for name, about, purpose, first, sets, options in _lptn.questions():
+        if about == "nothing":
+            continue
+        lines = [f"{purpose}: `lptn {name}`.", "", "Options:"]
+        lines += [f"    {option}: {means}" for option, _, means in options]
+        lines += ["", "Other keywords are parameters of the netlist."] if sets else []
+        method = _method(name, first, about == "netlists")
+        method.__name__ = method_name(name)
+        method.__qualname__ = f"Network.{method.__name__}"
+        method.__doc__ = "\n".join(lines)
+        setattr(Questions, method.__name__, method)
+
+
+def method_name(question: str) -> str:
+    """The name of a question in Python: `fit` is `fit network`."""
+    return "fit" if question == "fit network" else question.replace(" ", "_")
+
+
+_declare()

@@ -1,0 +1,243 @@
+"""Answers of questions."""
+
+from __future__ import annotations
+
+import html
+import json
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from . import _lptn
+from ._messages import Problem, problems
+
+if TYPE_CHECKING:
+    from ._column import Column
+
+# Most rows of a table in a notebook.
+_SHOWN = 12
+
+
+class Table:
+    """The rows of an answer: columns of numbers with units, and columns of words."""
+
+    def __init__(self, answer: _lptn.Answer, scalar: bool) -> None:
+        self._answer = answer
+        self._scalar = scalar
+        self._words: dict[str, list[str]] = {}
+        self.units: dict[str, str] = {}
+        """The unit of each column of numbers."""
+        columns = answer.columns()
+        if columns is None:
+            self._read(answer.csv())
+        else:
+            self._words = dict(answer.labels())
+            self.units = dict(columns)
+        self._numbers: dict[str, Column] = {}
+
+    def _read(self, text: str) -> None:
+        """Rows of words: columns whose cells are all numbers become numbers."""
+        import csv
+        import io
+
+        rows = list(csv.reader(io.StringIO(text)))
+        for place, head in enumerate(rows[0] if rows else []):
+            name, unit = _split(head)
+            cells = [row[place] for row in rows[1:]]
+            if unit and all(_is_number(cell) for cell in cells):
+                self.units[name] = unit
+                self._words[name] = cells
+            else:
+                self._words[head] = cells
+
+    @property
+    def names(self) -> list[str]:
+        """The names of all columns."""
+        return list(dict.fromkeys([*self._words, *self.units]))
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._words or name in self.units
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names)
+
+    def __len__(self) -> int:
+        if not self.names:
+            return 0
+        first: Any = self[self.names[0]]
+        return len(first) if getattr(first, "ndim", 1) else 1
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in self.units:
+            if name in self._words:
+                return list(self._words[name])
+            raise KeyError(f"{name}: the columns are {', '.join(self.names[:20])}")
+        if name not in self._numbers:
+            self._numbers[name] = self._column(name)
+        return self._numbers[name]
+
+    def _column(self, name: str) -> Column:
+        from . import _column
+
+        unit = self.units[name]
+        if name in self._words:
+            values = [float(cell) if cell else float("nan") for cell in self._words[name]]
+            return _column.column(name, unit, values)
+        index = None
+        if name != "time" and "time" in self.units:
+            index = self["time"]
+        made = _column.of_bytes(name, unit, self._answer.numbers(name) or b"", index)
+        return _column.column(name, unit, made.reshape(())) if self._scalar else made
+
+    def to_pandas(self, **words: Any) -> Any:
+        """The rows as a pandas DataFrame; headings have the units, times are the index."""
+        import numpy as np
+        import pandas as pd
+
+        def values(name: str) -> Any:
+            return np.atleast_1d(np.asarray(self[name])) if name in self.units else self[name]
+
+        heads = {name: self._head(name) for name in self.names}
+        frame = pd.DataFrame({heads[name]: values(name) for name in self.names}, **words)
+        return frame.set_index(heads["time"]) if "time" in heads else frame
+
+    def _head(self, name: str) -> str:
+        return f"{name} [{self.units[name]}]" if name in self.units else name
+
+    def __repr__(self) -> str:
+        return f"<Table of {len(self)} rows: {', '.join(self.names[:8])}>"
+
+    def _repr_html_(self) -> str:
+        names = self.names[:_SHOWN]
+        heads = "".join(f"<th>{html.escape(self._head(name))}</th>" for name in names)
+        cells = [list(_cells(self[name])) for name in names]
+        rows = list(zip(*cells))
+        step = max(1, -(-len(rows) // _SHOWN))
+        lines = ("".join(f"<td>{html.escape(cell)}</td>" for cell in row) for row in rows[::step])
+        body = "".join(f"<tr>{line}</tr>" for line in lines)
+        every = f"<p>every {step}th of {len(rows)} rows</p>" if step > 1 else ""
+        return f"<table><thead><tr>{heads}</tr></thead><tbody>{body}</tbody></table>{every}"
+
+
+def _cells(values: Any) -> Iterator[str]:
+    if isinstance(values, list):
+        yield from values
+    else:
+        yield from (f"{value:.6g}" for value in values.reshape(-1).tolist())
+
+
+def _split(head: str) -> tuple[str, str]:
+    name, bracket, unit = head.rpartition(" [")
+    return (name, unit[:-1]) if bracket and unit.endswith("]") else (head, "")
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell or "nan")
+    except ValueError:
+        return False
+    return True
+
+
+class Result:
+    """An answer: columns with units, limits, doubts, verdict, and its JSON.
+
+    `result["steel.T"]` is a column. `print(result)` prints the table of the command line.
+    """
+
+    def __init__(self, answer: _lptn.Answer, question: str, scalar: bool) -> None:
+        self._answer = answer
+        self._scalar = scalar
+        self._table: Table | None = None
+        self._data: dict[str, Any] | None = None
+        self._doubts: list[Problem] | None = None
+        self.question = question
+        """The question: `run`, `fit network`."""
+
+    def json(self) -> str:
+        """The object that `--format json` prints, to the byte."""
+        return self._answer.json()
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The same object, read."""
+        if self._data is None:
+            self._data = json.loads(self._answer.json())
+        return self._data or {}
+
+    def csv(self) -> str:
+        """The rows that `--format csv` prints."""
+        return self._answer.csv()
+
+    @property
+    def table(self) -> Table:
+        """The rows."""
+        if self._table is None:
+            self._table = Table(self._answer, self._scalar)
+        return self._table
+
+    def __getitem__(self, name: str) -> Any:
+        return self.table[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.table
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.table)
+
+    def keys(self) -> list[str]:
+        """The names of the columns."""
+        return self.table.names
+
+    def to_pandas(self, **words: Any) -> Any:
+        """The rows as a pandas DataFrame."""
+        return self.table.to_pandas(**words)
+
+    @property
+    def limits(self) -> dict[str, Any]:
+        """The limits by name: bound, worst value, margin, `kept` or not."""
+        return self.data.get("limits") or {}
+
+    @property
+    def doubts(self) -> list[Problem]:
+        """Doubts about the numbers."""
+        if self._doubts is None:
+            self._doubts = problems(self._answer.doubts())
+        return self._doubts
+
+    @property
+    def ok(self) -> bool:
+        """True if the answer is yes: no limit is broken, no error is too large."""
+        return self._answer.exit() == 0
+
+    @property
+    def verdict(self) -> list[str]:
+        """A sentence for each reason why the answer is no, such as a broken limit."""
+        return self._answer.reasons()
+
+    def svg(self) -> str | None:
+        """The picture that `--plot` draws; `None` if there is none."""
+        return self._answer.svg()
+
+    def plot(self, *names: str, ax: Any = None, **words: Any) -> Any:
+        """Draws columns with matplotlib; without names, all temperatures that end with `.T`."""
+        names = names or tuple(name for name in self.table.units if name.endswith(".T"))
+        for name in names:
+            ax = self[name].plot(ax=ax, **words)
+        if ax is not None and len(names) > 1:
+            units = {self.table.units[name] for name in names}
+            ax.set_ylabel(" or ".join(f"[{unit}]" for unit in sorted(units)))
+            ax.legend()
+        return ax
+
+    def __str__(self) -> str:
+        return self._answer.text()
+
+    def __repr__(self) -> str:
+        state = "" if self.ok else f", no: {'; '.join(self.verdict)}"
+        return f"<{self.question}: {len(self.table.names)} columns{state}>"
+
+    def _repr_html_(self) -> str:
+        parts = [f"<pre>{html.escape(str(self))}</pre>", self.svg() or ""]
+        parts += [f"<p><b>{html.escape(reason)}</b></p>" for reason in self.verdict]
+        doubts = "".join(f"<li>{html.escape(str(doubt))}</li>" for doubt in self.doubts)
+        return "".join(parts) + (f"<p>doubts</p><ul>{doubts}</ul>" if doubts else "")

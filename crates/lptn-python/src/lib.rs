@@ -1,0 +1,36 @@
+//! The Python package `lptn`.
+//!
+//! Python calls one function for every question of the command line: [`asking::ask`]. It finds the
+//! declaration of the question ([`verbs`]), sorts keyword arguments into options and parameters
+//! ([`words`]), and computes without Python's lock. The answer keeps everything; Python asks it for
+//! JSON, columns and pictures when it needs them. Classes for users are in `python/lptn`.
+
+mod answer;
+mod asking;
+mod declaration;
+mod netlist;
+mod questions;
+mod simulation;
+mod subject;
+mod trouble;
+mod verbs;
+mod watching;
+mod words;
+
+/// The part of the package that is compiled.
+#[pyo3::pymodule(name = "_lptn")]
+mod module {
+    #[pymodule_export]
+    use super::answer::Answer;
+    #[pymodule_export]
+    use super::asking::{ask, questions};
+    #[pymodule_export]
+    use super::netlist::{Netlist, unit};
+    #[pymodule_export]
+    use super::simulation::Simulation;
+
+    /// The version of lptn.
+    #[pymodule_export]
+    #[expect(non_upper_case_globals, reason = "Python's name of it")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+}

@@ -1,0 +1,72 @@
+"""Writes `_questions.pyi`, the types of the questions, from their declarations.
+
+    python stub.py ../python/lptn/_questions.pyi
+"""
+
+import keyword
+import sys
+
+from lptn import _lptn
+from lptn._questions import method_name
+
+HEAD = '''"""Questions to a network. Written by tests/stub.py from the declarations in src/verbs.rs."""
+
+import os
+from collections.abc import Sequence
+from typing import Any, SupportsFloat
+
+from . import _lptn
+from ._network import Network
+from ._result import Result
+
+# A text, a path, a number, a number with its unit.
+Text = str | os.PathLike[str] | SupportsFloat | tuple[float, str]
+Netlist = str | os.PathLike[str] | Network
+
+def answered(
+    answer: _lptn.Answer, question: str, words: dict[str, Any], level: int
+) -> Result: ...
+def paths(netlists: tuple[Any, ...]) -> list[str]: ...
+def method_name(question: str) -> str: ...
+
+class Questions:
+    _netlist: _lptn.Netlist
+    _set: dict[str, Any]
+'''
+
+
+def argument(option, kind):
+    name = f"{option}_" if keyword.iskeyword(option) else option
+    default = " = False" if kind.startswith("bool") else " = None"
+    return f"        {name}: {kind}{default},\n"
+
+
+def method(question):
+    name, about, purpose, first, sets, options = question
+    lines = ["        self,\n"]
+    if about == "netlists":
+        lines.append("        *netlists: Netlist,\n")
+    else:
+        lines += [argument(option, kind) for option, kind, _ in options if option == first]
+        lines.append("        *,\n")
+    lines += [argument(option, kind) for option, kind, _ in options if option != first]
+    if sets:
+        several = " | Sequence[Text]" if name == "compare" else ""
+        lines.append("        set: dict[str, Any] | None = None,\n")
+        lines.append("        options: dict[str, Any] | None = None,\n")
+        lines.append(f"        **parameters: Text{several},\n")
+    return (
+        f"    def {method_name(name)}(\n{''.join(lines)}    ) -> Result:\n"
+        f'        """{purpose}: `lptn {name}`."""\n'
+    )
+
+
+def stub():
+    """The text of the file."""
+    questions = [question for question in _lptn.questions() if question[1] != "nothing"]
+    return HEAD + "".join(method(question) for question in questions)
+
+
+if __name__ == "__main__":
+    with open(sys.argv[1], "w", encoding="utf-8") as file:
+        file.write(stub())
