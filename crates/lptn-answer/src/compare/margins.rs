@@ -4,9 +4,11 @@ use lptn_network::LimitSeverity;
 use lptn_report::{Align, Column, decimals, duration, fixed, significant};
 use lptn_study::{CandidateLimit, CompareRow, HeatOver};
 
-use super::page::NOTHING;
 use crate::families;
 use crate::words::spaced;
+
+/// Cell of a value that is not known or does not exist.
+pub(super) const NOTHING: &str = "-";
 
 /// A limit of the candidates, or a large family of limits.
 pub(super) struct Judged<'a> {

@@ -12,16 +12,13 @@ use lptn_study::{Candidate, CandidateReport, CompareRow, HeatOut, HeatOver, comp
 use lptn_units::Unit;
 use serde_json::Value;
 
-use super::margins::{broken, margins, settled_margins};
+use super::margins::{NOTHING, broken, margins, settled_margins};
 use super::{CompareAnswer, doubts};
 use crate::about;
 use crate::answer::Answer as _;
 use crate::exit::Exit;
 use crate::words::count;
 use crate::{families, messages, over_time, scale};
-
-/// Cell of a value that is not known or does not exist.
-pub(super) const NOTHING: &str = "-";
 
 impl CompareAnswer {
     /// The answer in a sentence.
