@@ -32,13 +32,9 @@ struct Case {
 
 impl Case {
     fn random(count: usize, random: &mut Random) -> Self {
-        let mut exchange = vec![vec![0.0; count]; count];
-        for i in 0..count {
-            for j in i..count {
-                let value = 0.01 + random.next();
-                (exchange[i][j], exchange[j][i]) = (value, value);
-            }
-        }
+        let all: Vec<f64> = (0..count * count).map(|_| 0.01 + random.next()).collect();
+        let row = |i: usize| (0..count).map(|j| all[i.min(j) * count + i.max(j)]).collect();
+        let exchange = (0..count).map(row).collect();
         let kelvin = (0..count).map(|_| 250.0 + 600.0 * random.next()).collect();
         // every fourth surface is black
         let emissivity = |i| if i % 4 == 3 { 1.0 } else { 0.05 + 0.9 * random.next() };

@@ -49,7 +49,7 @@ fn celsius_of(text: &str, name: &str) -> f64 {
 fn a_heated_patch_agrees_with_the_fourier_series() {
     for (patch, exact) in [(RECTANGLE, 30.486_754), (CIRCLE, 32.248_82)] {
         let errors = [[30, 20, 2], [60, 40, 4], [120, 80, 8]]
-            .map(|cells| celsius_of(&&plate(cells, patch), "board.chip.T") - 20.0 - exact);
+            .map(|cells| celsius_of(&plate(cells, patch), "board.chip.T") - 20.0 - exact);
         assert!(errors[2].abs() < 0.03, "{patch}: {errors:?}");
         assert!(errors[2].abs() < 0.4 * errors[0].abs(), "{patch}: {errors:?}");
     }
@@ -83,7 +83,7 @@ loss = {{ into = "rod.spot", P = "30 W" }}
         )
     };
     let errors = [(10, 5), (20, 10), (40, 20)]
-        .map(|(rings, layers)| celsius_of(&&rod(rings, layers), "rod.spot.T") - 20.0 - 94.705_409);
+        .map(|(rings, layers)| celsius_of(&rod(rings, layers), "rod.spot.T") - 20.0 - 94.705_409);
     assert!(errors[2].abs() < 0.08 && errors[2].abs() < 0.4 * errors[0].abs(), "{errors:?}");
 }
 
