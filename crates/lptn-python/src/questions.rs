@@ -110,6 +110,7 @@ pub(crate) fn compare(asked: &Asked<'_>, words: &Words) -> Outcome {
         sort: sort.unwrap_or(SortKey::Margin),
         temperature_unit: words.text("temperature_unit"),
         threads: words.count("threads")?,
+        detail: Detail::Brief,
         command: Vec::new(),
     };
     if question.uncertainty && question.periodic {
