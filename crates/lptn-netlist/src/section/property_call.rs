@@ -199,12 +199,17 @@ impl<'a> Elaboration<'a> {
         let constant = constant_of(called, key.unwrap_or(property));
         let constant = constant.filter(|_| !key.is_some_and(|key| known.contains(&key)));
         if let Some(constant) = constant {
+            let follows = Expression::parse(&constant).is_ok_and(|e| !e.names().is_empty());
+            let has = if follows { "an expression" } else { "one number" };
             let message =
-                format!("{words} calls `{name}.{property}`, but {substance} has one number for it");
+                format!("{words} calls `{name}.{property}`, but {substance} has {has} for it");
             let table = "{ x = [\"20 degC\", \"100 degC\"], y = [.., ..] }";
             let key = key.unwrap_or(property);
             return Diagnostic::error("netlist::no_function", message).help(match entry {
                 None => format!("write the number itself: `{constant}`"),
+                Some(_) if follows => {
+                    format!("write `{constant}` with your temperature in place of `T`")
+                }
                 Some(_) => format!(
                     "write the number itself, or give it over temperature: `{key} = {table}`"
                 ),
@@ -265,8 +270,8 @@ impl<'a> Elaboration<'a> {
     }
 }
 
-/// The constant of a substance of the library, as an expression would write it, or of the file, as
-/// it is there.
+/// The value of a property without a table: of the library as an expression would write it, of the
+/// file as it is there.
 fn constant_of(called: Called<'_, '_>, property: &str) -> Option<String> {
     let Called { section, name, entry } = called;
     if section.name == LUBRICANT.name || !TABULATED.contains(&property) {
@@ -274,8 +279,11 @@ fn constant_of(called: Called<'_, '_>, property: &str) -> Option<String> {
     }
     if let Some(entry) = entry {
         let RawKind::Table(table) = &entry.value.kind else { return None };
-        let given = table.get(property)?;
-        return (!matches!(given.value.kind, RawKind::Table(_))).then(|| property.to_owned());
+        return match &table.get(property)?.value.kind {
+            RawKind::String { text, .. } => Some(text.clone()),
+            RawKind::Table(_) => None,
+            _ => Some(property.to_owned()),
+        };
     }
     let record = library::find(name)?;
     let value = match property {
