@@ -192,10 +192,17 @@ impl Names {
                 error.help(format!("its temperature is `{name}.T`"))
             }
             Some(kind) => error.help(format!("`{name}` is a {kind}; expressions use parameters")),
-            None => error.help(format!(
-                "add it to [param], for example `{}`",
-                place.owner.sample_as(place.key, name)
-            )),
+            None => error.help(format!("add it to [param], for example `{}`", sample(place, name))),
         }
+    }
+}
+
+/// A line for a name that is missing. It has the unit of the value only if it is all of the value.
+fn sample(place: Place<'_>, name: &str) -> String {
+    match &place.raw.kind {
+        RawKind::String { text, .. } if text.trim() == name => {
+            place.owner.sample_as(place.key, name)
+        }
+        _ => format!("{name} = \"..\""),
     }
 }

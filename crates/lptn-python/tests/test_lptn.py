@@ -42,6 +42,17 @@ output = { every = "1 min" }
 """
 
 
+class Frame:
+    """A frame as pandas and polars have them: `columns`, and each by its name."""
+
+    def __init__(self, **values):
+        self.columns = list(values)
+        self.values = values
+
+    def __getitem__(self, name):
+        return np.asarray(self.values[name])
+
+
 class Results(unittest.TestCase):
     def test_a_run_has_its_closed_form(self):
         # T = 25 + 20 (1 - exp(-t/250 s)): one body
@@ -81,6 +92,23 @@ class Results(unittest.TestCase):
         swept = lptn.load(NETWORKS / "gearbox_fan.toml").compare()
         self.assertEqual(len(swept.table), 1)
         self.assertIsInstance(swept.table[swept.table.names[0]], list)
+
+    def test_a_frame_of_candidates(self):
+        # T = 25 + P / G; over 30 min 1 - exp(-1800 G / 500 J/K) of it
+        net = lptn.parse(BODY, G="4 W/K")
+        steady = net.sweep({"P": [20, 30], "G [mW/K]": [2000, 3000.0]})
+        np.testing.assert_allclose(steady["block_T"], [35, 35], rtol=1e-9)
+        self.assertEqual(steady["block_T"].unit, "degC")
+        hot = {"hot": "max(block.T)"}
+        run = net.sweep({"P": [20, 30]}, over="run", report=hot, threads=1)
+        expected = 25 + np.array([20, 30]) / 4 * (1 - math.exp(-1800 * 4 / 500))
+        np.testing.assert_allclose(run["hot"], expected, rtol=1e-6)
+        for wrong in [{"Q": [1]}, {}, {"P": [1, 2], "G": [1]}]:
+            self.assertRaises(TypeError, net.sweep, wrong)
+        self.assertRaises(TypeError, net.sweep, over="run")
+        # a file next to the netlist is still found, and the frame need not be a dictionary
+        curves = lptn.load(NETWORKS / "gearbox.toml").sweep(Frame(G_out=[4.0]))
+        np.testing.assert_allclose(curves["steel_T"], [27.2 + 220.6 / 4], rtol=1e-9)
 
     def test_parameters(self):
         net = lptn.parse(BODY, G="4 W/K")

@@ -96,40 +96,43 @@ impl Written<'_> {
             let [a, b] = [&read.surfaces[i], &read.surfaces[j]];
             let name = format!("{}.{}.{}", self.full, a.name, b.name);
             let ends = [self.radiosity(a), self.radiosity(b)];
-            self.path(&name, ends, &[("Gr", &format!("{exchange} m^2"))], self.at);
+            self.path(&name, ends, format!("{exchange} m^2"), self.at);
         }
     }
 
-    /// The radiosity of a grey surface, and the path to it.
+    /// The radiosity of a grey surface, and the path to it, given by its exchange area: a law with the
+    /// emissivity as a field would have a second field that depends on it.
     fn surface(&mut self, surface: &Surface<'_>) {
-        let Emissivity::Grey(text) = &surface.emissivity else { return };
+        let area = surface.area;
+        let exchange = match &surface.emissivity {
+            Emissivity::Black => return,
+            Emissivity::Number(e) => format!("{} m^2", area * e / (1.0 - e)),
+            Emissivity::Follows(text) => format!("({text}) / (1 - ({text})) * {area} [m^2]"),
+        };
         let massless = RawValue { span: self.at.clone(), kind: RawKind::Boolean(true) };
-        let node = element(
-            &format!("{}.{}.J", self.full, surface.name),
-            vec![RawEntry::new("massless", massless)],
-            self.at,
-        );
-        self.raw.push(NODE.name, node);
         let name = format!("{}.{}", self.full, surface.name);
+        let fields = vec![RawEntry::new("massless", massless)];
+        self.raw.push(NODE.name, element(&format!("{name}.J"), fields, self.at));
         let ends = [RawValue::text(surface.name.to_owned(), surface.at), self.radiosity(surface)];
-        let seen = format!("{} [m^2] / (1 - ({text}))", surface.area);
-        self.path(&name, ends, &[("emissivity", text), ("area", &seen)], surface.emissivity_at);
+        self.path(&name, ends, exchange, surface.emissivity_at);
     }
 
     /// The end that stands for the radiosity of a surface.
     fn radiosity(&self, surface: &Surface<'_>) -> RawValue {
         match surface.emissivity {
             Emissivity::Black => RawValue::text(surface.name.to_owned(), surface.at),
-            Emissivity::Grey(_) => {
+            Emissivity::Number(_) | Emissivity::Follows(_) => {
                 RawValue::text(format!("{}.{}.J", self.here, surface.name), self.at)
             }
         }
     }
 
-    fn path(&mut self, name: &str, ends: [RawValue; 2], law: &[(&str, &str)], at: &Span) {
-        let ends = ["from", "to"].into_iter().zip(ends);
-        let law = law.iter().map(|(key, text)| (*key, RawValue::text((*text).to_owned(), at)));
-        let fields = ends.chain(law).map(|(key, value)| RawEntry::new(key, value)).collect();
+    fn path(&mut self, name: &str, [from, to]: [RawValue; 2], exchange: String, at: &Span) {
+        let fields = vec![
+            RawEntry::new("from", from),
+            RawEntry::new("to", to),
+            RawEntry::new("Gr", RawValue::text(exchange, at)),
+        ];
         self.raw.push(Kind::Radiation.declaration().section, element(name, fields, self.at));
     }
 }

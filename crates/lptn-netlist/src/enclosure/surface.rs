@@ -23,8 +23,10 @@ pub(super) struct Surface<'r> {
 pub(super) enum Emissivity {
     /// 1, as a number.
     Black,
-    /// Any other number, or an expression.
-    Grey(String),
+    /// A number below 1.
+    Number(f64),
+    /// An expression.
+    Follows(String),
 }
 
 impl<'r> Surface<'r> {
@@ -72,7 +74,7 @@ fn emissivity(fields: &Fields<'_>, raw: &RawValue) -> Result<Emissivity, Diagnos
             let follows = Expression::parse(text).is_ok_and(|e| !e.names().is_empty());
             let place = Place { owner: &fields.owner, key: "emissivity", raw };
             return if follows {
-                Ok(Emissivity::Grey(text.to_owned()))
+                Ok(Emissivity::Follows(text.to_owned()))
             } else {
                 Err(place.unit_error(&error))
             };
@@ -80,7 +82,7 @@ fn emissivity(fields: &Fields<'_>, raw: &RawValue) -> Result<Emissivity, Diagnos
     };
     match value {
         1.0 => Ok(Emissivity::Black),
-        value if value > 0.0 && value < 1.0 => Ok(Emissivity::Grey(format!("{value}"))),
+        value if value > 0.0 && value < 1.0 => Ok(Emissivity::Number(value)),
         value => {
             let message = format!(
                 "{} must be above 0 and at most 1, got {value}",

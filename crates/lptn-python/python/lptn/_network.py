@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from typing import Any
 
 from . import _lptn
+from ._frame import sweep as frame_sweep
 from ._messages import Problem, problems
 from ._questions import Questions, answered, paths
 from ._result import Result
@@ -52,6 +54,36 @@ class Network(Questions):
     def to_toml(self) -> str:
         """The flat netlist of the network, as `lptn check --expand` prints it."""
         return self._netlist.to_toml()
+
+    @property
+    def text(self) -> tuple[str, str]:
+        """The text of the netlist, and its name."""
+        if self._source[0] == "parse":
+            return self._source[1], self._source[2]
+        with open(self._source[1], encoding="utf-8") as file:
+            return file.read(), self._source[1]
+
+    def sweep(
+        self,
+        name: Any = None,
+        *,
+        over: str | None = None,
+        report: Mapping[str, str] | None = None,
+        **words: Any,
+    ) -> Result:
+        """Solve many candidates: `lptn sweep`, or the rows of a frame.
+
+            net.sweep({"G_out": [3, 4, 5]}, report={"hot": "steel.T"})
+
+        A frame is a DataFrame or a dictionary of columns, each with the name of a parameter, or with
+        its unit too: `"G_out [W/K]"`. A number is in the unit of the parameter in the netlist. `over`
+        is "steady", "run" or "periodic"; without `report` the temperatures of the nodes are reported.
+        """
+        if name is None or isinstance(name, (str, os.PathLike)):
+            if over is not None or report is not None:
+                raise TypeError("`over` and `report` belong to a frame: a study has its own")
+            return super().sweep(name, **words)
+        return frame_sweep(self, name, over or "steady", report, words)
 
     def simulation(self) -> Simulation:
         """A simulation of the network, to be stepped."""

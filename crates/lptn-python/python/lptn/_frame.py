@@ -1,0 +1,74 @@
+"""Candidates of a sweep from a frame: columns of parameters, a row for each candidate."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import tempfile
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from . import _lptn
+from ._questions import answered
+from ._result import Result
+
+if TYPE_CHECKING:
+    from ._network import Network
+
+# Most temperatures that are reported without being asked for.
+_REPORTED = 20
+
+
+def sweep(
+    network: Network,
+    frame: Any,
+    over: str,
+    report: Mapping[str, str] | None,
+    words: dict[str, Any],
+) -> Result:
+    """Solves the rows of a frame: a DataFrame, or a dictionary of columns."""
+    with tempfile.TemporaryDirectory(prefix="lptn-") as folder:
+        file = os.path.join(folder, "candidates.csv")
+        _write(file, _columns(network, frame))
+        lines = ["", "[sweep.frame]", 'method = "csv"', f"file = {json.dumps(file)}"]
+        lines += [f"over = {json.dumps(over)}", "[sweep.frame.report]"]
+        named = report or _temperatures(network, over)
+        lines += [f"{name} = {json.dumps(text)}" for name, text in named.items()]
+        text, name = network.text
+        netlist = _lptn.Netlist.parse(text + "\n".join(lines) + "\n", name, network._set)
+        answer = netlist.ask("sweep", [], {**words, "name": "frame"})
+        return answered(answer, "sweep", words, 3)
+
+
+def _columns(network: Network, frame: Any) -> dict[str, list[float]]:
+    """The columns with the headings of a CSV file: `G_out [W/K]`."""
+    units = {name: unit for name, _, unit in network._netlist.parameters()}
+    columns: dict[str, list[float]] = {}
+    # polars has `columns`, dictionaries have `keys`, pandas both
+    for head in frame.columns if hasattr(frame, "columns") else frame:
+        name = str(head)
+        if "[" not in name:
+            if name not in units:
+                known = ", ".join(units)
+                raise TypeError(f"{name} is not a parameter of {network!r}: they are {known}")
+            name = f"{name} [{units[name]}]" if units[name] else name
+        columns[name] = [float(value) for value in frame[head]]
+    if len({len(values) for values in columns.values()}) != 1:
+        raise TypeError("the columns of a frame have one length, at least one column")
+    return columns
+
+
+def _write(file: str, columns: dict[str, list[float]]) -> None:
+    with open(file, "w", encoding="utf-8", newline="") as out:
+        writer = csv.writer(out)
+        writer.writerow(columns)
+        # repr gives all digits
+        writer.writerows(map(repr, row) for row in zip(*columns.values()))
+
+
+def _temperatures(network: Network, over: str) -> dict[str, str]:
+    """The temperatures of the nodes, over a run their maxima."""
+    nodes = [name for name in network.nodes if name.isidentifier()][:_REPORTED]
+    form = "{}.T" if over == "steady" else "max({}.T)"
+    return {f"{node}_T": form.format(node) for node in nodes}
