@@ -8,20 +8,9 @@ use crate::support;
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 use lptn::prelude::*;
-use support::{celsius, close, heat, parsed, settled, transient};
+use support::{Numbers, celsius, close, heat, parsed, settled, transient};
 
 const SIGMA: f64 = 5.670_374_419e-8;
-
-/// Pseudo-random numbers from 0 to 1.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 =
-            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
 
 /// Surfaces at given temperatures, with symmetric A F, so that the rows sum to 1.
 struct Case {
@@ -31,13 +20,13 @@ struct Case {
 }
 
 impl Case {
-    fn random(count: usize, random: &mut Random) -> Self {
-        let all: Vec<f64> = (0..count * count).map(|_| 0.01 + random.next()).collect();
+    fn random(count: usize, random: &mut Numbers) -> Self {
+        let all: Vec<f64> = (0..count * count).map(|_| random.between(0.01, 1.01)).collect();
         let row = |i: usize| (0..count).map(|j| all[i.min(j) * count + i.max(j)]).collect();
         let exchange = (0..count).map(row).collect();
-        let kelvin = (0..count).map(|_| 250.0 + 600.0 * random.next()).collect();
+        let kelvin = (0..count).map(|_| random.between(250.0, 850.0)).collect();
         // every fourth surface is black
-        let emissivity = |i| if i % 4 == 3 { 1.0 } else { 0.05 + 0.9 * random.next() };
+        let emissivity = |i| if i % 4 == 3 { 1.0 } else { random.between(0.05, 0.95) };
         Self { kelvin, emissivity: (0..count).map(emissivity).collect(), exchange }
     }
 
@@ -86,7 +75,7 @@ impl Case {
 
 #[test]
 fn random_enclosures_obey_the_radiosity_equations() {
-    let mut random = Random(20_261_127);
+    let mut random = Numbers(20_261_127);
     for count in [2, 3, 4, 5, 8, 12] {
         for _ in 0..10 {
             let case = Case::random(count, &mut random);

@@ -6,10 +6,9 @@
 use crate::support;
 
 use lptn::prelude::*;
-use lptn_netlist::Netlist;
 use lptn_network::ParameterId;
 use lptn_solve::sensitive_run;
-use support::{close, parsed, settled, transient};
+use support::{celsius, close, parsed, settled, transient};
 
 /// A die of 10 x 10 mm on a copper spreader of 30 x 30 mm.
 const DIE: &str = r#"
@@ -45,10 +44,6 @@ output = { every = "10 ms" }
 
 fn centred() -> String {
     DIE.replace(" offset = [\"x\", \"3 mm\"],", "").replace("[param]\nx = \"7 mm\"\n", "")
-}
-
-fn celsius(netlist: &Netlist, steady: &SteadyState, node: &str) -> f64 {
-    steady.temperatures[netlist.network.node(node).unwrap().index()] - 273.15
 }
 
 #[test]

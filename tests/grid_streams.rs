@@ -5,9 +5,7 @@
 
 use crate::support;
 
-use lptn::prelude::*;
-use lptn_netlist::Netlist;
-use support::{close, parsed, settled, transient};
+use support::{celsius, close, parsed, settled, transient};
 
 const PLATE: &str = r#"
 format = 1
@@ -40,10 +38,6 @@ output = { every = "10 s" }
 /// The oracle has no resistance between the plate and its film: k across is very large here.
 fn thin(text: &str) -> String {
     text.replace("k = \"167 W/(m K)\"", "k = [\"167 W/(m K)\", \"167 W/(m K)\", \"1e9 W/(m K)\"]")
-}
-
-fn celsius(netlist: &Netlist, steady: &SteadyState, node: &str) -> f64 {
-    steady.temperatures[netlist.network.node(node).unwrap().index()] - 273.15
 }
 
 /// The water warms by P / mcp in all.

@@ -7,23 +7,11 @@ use crate::support;
 
 use lptn::prelude::*;
 use lptn_netlist::Netlist;
-use lptn_network::Item;
 
-use support::{close, column, parsed, settled};
+use support::{close, column, heat, parsed, settled};
 
 fn temperature(netlist: &Netlist, steady: &SteadyState, node: &str) -> f64 {
     steady.temperatures[netlist.network.node(node).unwrap().index()]
-}
-
-fn heat(netlist: &Netlist, steady: &SteadyState, name: &str) -> f64 {
-    match netlist.network.item(name).unwrap() {
-        Item::Conductor(id) => steady.conductor_heat[id.index()],
-        Item::FacePath(id) => netlist.network.face_paths()[id.index()]
-            .conductors()
-            .map(|c| steady.conductor_heat[c.index()])
-            .sum(),
-        other => panic!("{name} is {other:?}"),
-    }
 }
 
 /// The dimensionless temperature of a slab of half-thickness 1, insulated in its middle (x = 0),

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+use crate::support::Numbers;
 use lptn::prelude::*;
 
 fn close(found: f64, exact: f64, within: f64) {
@@ -171,17 +172,6 @@ struct Bodies {
     g: [f64; 3],
     power: [f64; 3],
     start: [f64; 3],
-}
-
-/// Numbers that look random: the same on every machine (D. E. Knuth, MMIX).
-struct Numbers(u64);
-
-impl Numbers {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 =
-            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        low + (high - low) * ((self.0 >> 11) as f64 / (1_u64 << 53) as f64)
-    }
 }
 
 impl Bodies {

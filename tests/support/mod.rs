@@ -79,6 +79,18 @@ pub fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
+/// Numbers that look random: the same on every machine (D. E. Knuth, MMIX).
+pub struct Numbers(pub u64);
+
+impl Numbers {
+    /// A number from `low` to `high`.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * ((self.0 >> 11) as f64 / (1_u64 << 53) as f64)
+    }
+}
+
 /// `idle` nodes beside the gearbox that nothing ever happens to.
 pub fn gearbox_with_idle(idle: usize) -> (ThermalSystem, NodeId, NodeId) {
     let ambient = Temperature::celsius(25.5);

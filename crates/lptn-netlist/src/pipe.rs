@@ -12,7 +12,7 @@ use crate::fields::{Fields, Owner};
 use crate::format::{ABSOLUTE, Role, SectionDeclaration, akin, key, text};
 use crate::names::ValueKind;
 use crate::place::Wanted;
-use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
+use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
 use crate::section::{Initial, NODE, check_forms};
 use crate::template::Structure;
 use crate::work::Elaboration;
@@ -117,7 +117,7 @@ const PASSED: &str = ".passed";
 
 fn table<'k>(at: &Span, keys: impl Iterator<Item = (&'k str, RawValue)>) -> RawValue {
     let entries = keys.map(|(key, value)| RawEntry::new(key, value)).collect();
-    RawValue { span: at.clone(), kind: RawKind::Table(RawTable { span: at.clone(), entries }) }
+    RawValue::table(entries, at)
 }
 
 impl<'a> Elaboration<'a> {

@@ -177,6 +177,11 @@ impl RawValue {
         }
     }
 
+    /// A table that is generated.
+    pub(crate) fn table(entries: Vec<RawEntry>, at: &Span) -> Self {
+        Self { span: at.clone(), kind: RawKind::Table(RawTable { span: at.clone(), entries }) }
+    }
+
     /// Text that is generated: its place is that of the value that it follows from.
     pub(crate) fn text(text: String, at: &Span) -> Self {
         Self { span: at.clone(), kind: RawKind::String { text, start: None } }

@@ -7,7 +7,7 @@
 use lptn_units::{Expression, Type};
 
 use crate::names::ValueKind;
-use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
+use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
 use crate::template::Structure;
 
 /// An element on its way to values.
@@ -94,7 +94,7 @@ impl<'r> WrittenOut<'r> {
         let entry =
             |(key, text): &(&str, String)| RawEntry::new(key, RawValue::text(text.clone(), at));
         let entries = keys.iter().map(entry).collect();
-        RawValue { span: at.clone(), kind: RawKind::Table(RawTable { span: at.clone(), entries }) }
+        RawValue::table(entries, at)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Reasons why there is no answer, and their exceptions in Python.
+//! Refusals and failures as exceptions of Python.
 
 use lptn::{Diagnostic, Exit, Failure, problems_as_json};
 use pyo3::exceptions::{PyTypeError, PyValueError};

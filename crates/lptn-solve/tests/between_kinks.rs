@@ -1,4 +1,4 @@
-//! Comparisons of `abs`, `min` and `max` of what is linear in time switch at their exact times.
+//! Comparisons of `abs`, `min` and `max` of linear functions of time switch at their exact times.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
 use lptn_assembly::ThermalSystem;

@@ -12,9 +12,10 @@ use lptn_data::{Diagnostic, Span};
 use lptn_laws::Kind;
 
 use crate::format::{Role, SectionDeclaration, Takes, key, number, shaped};
-use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
+use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
 use crate::section::NODE;
 use crate::template::Structure;
+use crate::written_out::here;
 use read::Read;
 use surface::{Emissivity, Surface};
 
@@ -70,9 +71,7 @@ const SURFACE: SectionDeclaration = SectionDeclaration {
 pub(crate) fn expand(raw: &mut RawNetlist, structure: &Structure, problems: &mut Vec<Diagnostic>) {
     for entry in raw.take(ENCLOSURE.name) {
         let Some(read) = Read::of(&entry, problems) else { continue };
-        let around = structure.instance_at(&entry.key_span);
-        let around = around.map_or(String::new(), |path| format!("{path}."));
-        let here = entry.key.strip_prefix(&around).unwrap_or(&entry.key);
+        let here = here(structure, &entry);
         let written = Written { full: &entry.key, here, at: &entry.key_span, raw };
         written.all(&read);
     }
@@ -112,7 +111,8 @@ impl Written<'_> {
         let massless = RawValue { span: self.at.clone(), kind: RawKind::Boolean(true) };
         let name = format!("{}.{}", self.full, surface.name);
         let fields = vec![RawEntry::new("massless", massless)];
-        self.raw.push(NODE.name, element(&format!("{name}.J"), fields, self.at));
+        self.raw
+            .push(NODE.name, RawEntry::new(&format!("{name}.J"), RawValue::table(fields, self.at)));
         let ends = [RawValue::text(surface.name.to_owned(), surface.at), self.radiosity(surface)];
         self.path(&name, ends, exchange, surface.emissivity_at);
     }
@@ -133,11 +133,9 @@ impl Written<'_> {
             RawEntry::new("to", to),
             RawEntry::new("Gr", RawValue::text(exchange, at)),
         ];
-        self.raw.push(Kind::Radiation.declaration().section, element(name, fields, self.at));
+        self.raw.push(
+            Kind::Radiation.declaration().section,
+            RawEntry::new(name, RawValue::table(fields, self.at)),
+        );
     }
-}
-
-fn element(name: &str, fields: Vec<RawEntry>, at: &Span) -> RawEntry {
-    let kind = RawKind::Table(RawTable { span: at.clone(), entries: fields });
-    RawEntry::new(name, RawValue { span: at.clone(), kind })
 }

@@ -13,7 +13,7 @@ pub(crate) use check::check;
 
 use crate::format::{ABSOLUTE, Role, SectionDeclaration, Takes, flag, key, shaped, text};
 use crate::names::ValueKind;
-use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
+use crate::raw::{RawEntry, RawNetlist, RawValue};
 use crate::section::NODE;
 use crate::template::Structure;
 use parameters::Written;
@@ -147,6 +147,5 @@ fn given(key: &str, text: &str, at: &Span) -> RawEntry {
 }
 
 fn element(name: &str, fields: Vec<RawEntry>, at: &Span) -> RawEntry {
-    let kind = RawKind::Table(RawTable { span: at.clone(), entries: fields });
-    RawEntry::new(name, RawValue { span: at.clone(), kind })
+    RawEntry::new(name, RawValue::table(fields, at))
 }
