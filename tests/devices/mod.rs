@@ -114,6 +114,11 @@ fn correlations() -> Vec<Closed> {
         ("rod.Q", "steady", heat(rod, 0.05)),
         ("rod_by_powers.Q", "steady", heat(0.193 * blown.powf(0.618) * third, 0.05)),
         ("board.Q", "steady", heat(0.664 * re(10.0, 0.5).sqrt() * third, 0.5)),
+        ("board_end.Q", "steady", {
+            heat(0.664 * (re(10.0, 0.5).sqrt() - re(10.0, 0.4).sqrt()) * third, 0.1)
+        }),
+        ("bar.Q", "steady", heat(0.158 * re(10.0, 0.04).powf(0.66) * third, 0.04)),
+        ("bar_on_edge.Q", "steady", heat(0.304 * re(10.0, 0.04).powf(0.59) * third, 0.04)),
         ("channel.Q", "steady", heat(channel, 0.03)),
         ("shaft.Q", "steady", {
             heat(0.11 * (0.5 * skin * skin * pr + ra(0.04)).powf(0.35), 0.04)

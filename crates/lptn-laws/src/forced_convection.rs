@@ -73,6 +73,46 @@ pub fn nusselt_flat_plate<S: Scalar>(re: S, pr: S) -> S {
     laminar.max(mixed) * pr.powf(1.0 / 3.0)
 }
 
+/// Mean Nusselt number of a surface on a plate along a flow that is heated from its leading edge,
+/// over the length of the surface: the heat of the plate up to its end less that up to its start.
+///
+/// Nu = N(Re_end) - N(Re_start) with N of [`nusselt_flat_plate`]
+///
+/// * `start`, `end`: Reynolds numbers of the distances from the leading edge, at most 1e8
+/// * `pr`: Prandtl number, 0.6 to 60
+///
+/// It follows from the definition of the mean: the integral of the local coefficient. F. Kreith,
+/// Principles of Heat Transfer, 3rd edition (1973), table 6-5, has the same integral.
+pub fn nusselt_flat_plate_from<S: Scalar>([start, end]: [S; 2], pr: S) -> S {
+    // the root has no slope at 0
+    nusselt_flat_plate(end, pr) - nusselt_flat_plate(start.max(S::from_f64(1e-30)), pr)
+}
+
+/// Mean Nusselt number of a long square bar across a flow that meets a face, over its side.
+///
+/// Nu = 0.158 Re^0.66 Pr^(1/3)
+///
+/// * `re`: Reynolds number of the side, 5000 to 60 000
+/// * `pr`: Prandtl number, 0.7 and above
+///
+/// Source: E. M. Sparrow, J. P. Abraham and J. C. K. Tong, Int. J. Heat Mass Transfer 47 (2004)
+/// 5285, in the form of Incropera et al., 7th edition, table 7.3.
+pub fn nusselt_square<S: Scalar>(re: S, pr: S) -> S {
+    S::from_f64(0.158) * re.powf(0.66) * pr.powf(1.0 / 3.0)
+}
+
+/// Mean Nusselt number of a long square bar across a flow that meets an edge, over its diagonal.
+///
+/// Nu = 0.304 Re^0.59 Pr^(1/3)
+///
+/// * `re`: Reynolds number of the diagonal, 6000 to 60 000
+/// * `pr`: Prandtl number, 0.7 and above
+///
+/// Source: as [`nusselt_square`].
+pub fn nusselt_square_on_edge<S: Scalar>(re: S, pr: S) -> S {
+    S::from_f64(0.304) * re.powf(0.59) * pr.powf(1.0 / 3.0)
+}
+
 /// Nu of a laminar flow in a round duct with a wall of one temperature.
 const LAMINAR_DUCT: f64 = 3.66;
 
@@ -219,19 +259,91 @@ pub(crate) struct FlatPlate;
 impl Law for FlatPlate {
     const DECLARATION: LawDeclaration = LawDeclaration {
         name: "flat_plate",
-        sentence: "A plate along a flow that meets its edge.",
-        equation: "Q = Nu k / length A (T_from - T_to), Nu = max(0.664 Re^(1/2), 0.037 Re^(4/5) - \
-            871) Pr^(1/3)",
-        fields: fields!("length", "length of the plate along the flow", "\"0.3 m\""),
-        validity: "One temperature along the plate, no pressure gradient; the flow turns turbulent \
-            at Re = 5e5.",
+        sentence: "A surface on a plate along a flow.",
+        equation: "Q = Nu k / length A (T_from - T_to), Nu = N(start + length) - N(start), N = \
+            max(0.664 Re^(1/2), 0.037 Re^(4/5) - 871) Pr^(1/3), Re of the distance from the \
+            leading edge",
+        fields: of_fluid![
+            SPEED,
+            length("length", "length of the surface along the flow", "\"0.3 m\""),
+            AREA,
+            START,
+        ],
+        validity: "One temperature from the leading edge to the end of the surface, no pressure \
+            gradient; the flow turns turbulent at Re = 5e5.",
         groups: &[reynolds(0.0, 1e8), prandtl(0.6, 60.0)],
-        source: "Incropera et al., 6th edition, equations 7.30 and 7.38",
+        source: "Incropera et al., 6th edition, equations 7.30 and 7.38; Kreith, 3rd edition, \
+            table 6-5",
         ..BODY
     };
 
     fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
-        conductance(values, nusselt_flat_plate)
+        let (fluid, distances, pr) = on_plate(values);
+        fluid.film(nusselt_flat_plate_from(distances, pr), values[5], values[6])
+    }
+
+    fn groups(values: &[f64], _: [f64; 2]) -> Vec<Option<f64>> {
+        let (_, [_, end], pr) = on_plate(values);
+        vec![Some(end), Some(pr)]
+    }
+}
+
+/// The distance from the leading edge to a surface.
+const START: FieldDeclaration = FieldDeclaration {
+    range: Range::NotNegative,
+    ..length("start", "distance from the leading edge to the surface", "\"0.1 m\"")
+}
+.or(0.0);
+
+/// The fluid, Re at start and end of a surface, and Pr.
+fn on_plate<S: Scalar>(values: &[S]) -> (Fluid<S>, [S; 2], S) {
+    let fluid = Fluid::of(values);
+    let [start, end] = [values[7], values[7] + values[5]].map(|x| fluid.reynolds(values[4], x));
+    (fluid, [start, end], fluid.prandtl())
+}
+
+/// A square bar across a flow.
+#[derive(Debug)]
+pub(crate) struct Square;
+
+impl Law for Square {
+    const DECLARATION: LawDeclaration = LawDeclaration {
+        name: "square_in_cross_flow",
+        sentence: "The outer surface of a long square bar across a flow that meets a face.",
+        equation: "Q = Nu k / width A (T_from - T_to), Nu = 0.158 Re^0.66 Pr^(1/3)",
+        fields: fields!("width", "side of the square", "\"40 mm\""),
+        validity: "Longer than wide, in a wide and even flow. Measured in air.",
+        groups: &[reynolds(5000.0, 6e4), prandtl(0.7, f64::INFINITY)],
+        source: "Sparrow, Abraham and Tong, Int. J. Heat Mass Transfer 47 (2004) 5285; Incropera \
+            et al., 7th edition, table 7.3",
+        ..BODY
+    };
+
+    fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
+        conductance(values, nusselt_square)
+    }
+
+    fn groups(values: &[f64], _: [f64; 2]) -> Vec<Option<f64>> {
+        re_and_pr(values)
+    }
+}
+
+/// A square bar across a flow, on its edge.
+#[derive(Debug)]
+pub(crate) struct SquareOnEdge;
+
+impl Law for SquareOnEdge {
+    const DECLARATION: LawDeclaration = LawDeclaration {
+        name: "square_on_edge_in_cross_flow",
+        sentence: "The outer surface of a long square bar across a flow that meets an edge.",
+        equation: "Q = Nu k / width A (T_from - T_to), Nu = 0.304 Re^0.59 Pr^(1/3)",
+        fields: fields!("width", "diagonal of the square", "\"55 mm\""),
+        groups: &[reynolds(6000.0, 6e4), prandtl(0.7, f64::INFINITY)],
+        ..Square::DECLARATION
+    };
+
+    fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
+        conductance(values, nusselt_square_on_edge)
     }
 
     fn groups(values: &[f64], _: [f64; 2]) -> Vec<Option<f64>> {

@@ -85,6 +85,7 @@ pub use fins::{fin_efficiency, finned};
 pub use fluid::Fluid;
 pub use forced_convection::{
     nusselt_cross_flow, nusselt_cross_flow_hilpert, nusselt_duct, nusselt_flat_plate,
+    nusselt_flat_plate_from, nusselt_square, nusselt_square_on_edge,
 };
 pub use free_convection::{
     nusselt_horizontal_cylinder, nusselt_plate_driven, nusselt_plate_layered,

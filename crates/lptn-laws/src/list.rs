@@ -84,7 +84,7 @@ declare! {
     conduction: Conduction { Slab, Cylinder, Sphere, Rod };
     convection: Convection { Film };
     free_convection: { VerticalPlate, HorizontalCylinder, UpperSide, LowerSide };
-    forced_convection: { CrossFlow, CrossFlowHilpert, FlatPlate, Duct };
+    forced_convection: { CrossFlow, CrossFlowHilpert, FlatPlate, Square, SquareOnEdge, Duct };
     rotation: { Shaft, Annulus };
     bodies: { SphereAtRest, SphereInFlow, InclinedPlate, Disc, Jet };
     gap: { GapFromBelow, GapVertical };

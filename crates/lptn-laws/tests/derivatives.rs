@@ -106,13 +106,13 @@ fn declared_laws_have_their_derivatives() {
                     moved[i] *= factor;
                     law.value(&moved, ends)
                 };
-                let slope = (at(1.0 + 1e-5) - at(1.0 - 1e-5)) / (2e-5 * x);
+                let by = |step: f64| (at(1.0 + step) - at(1.0 - step)) / (2.0 * step * x);
+                let slope = by(1e-5);
                 let error = (found.derivatives[i] - slope).abs();
                 // what rounding does to a part that hardly counts in the whole, as of `difference`
                 let rounding = 8.0 * f64::EPSILON * found.value.abs() / (1e-5 * x.abs());
-                // the difference errs near an extremum, where the slope is small
-                let bend = at(1.0 + 1e-3) - 2.0 * found.value + at(1.0 - 1e-3);
-                let curved = 1e-9 * (bend / (1e-6 * x)).abs();
+                // the error of the difference is a third of the change by a doubled step
+                let curved = (by(2e-5) - slope).abs();
                 assert!(
                     error <= 1e-7 * slope.abs().max(1e-9) + rounding + curved,
                     "{} by {}",
