@@ -7,7 +7,8 @@ use std::path::Path;
 
 use lptn::prelude::*;
 use lptn_netlist::{
-    Files, Netlist, RecordQuery, Rejected, parse_bytes, parse_with, read_record, read_sheet,
+    CsvOptions, Files, Netlist, RecordQuery, Rejected, parse_bytes, parse_with, read_record,
+    read_sheet,
 };
 use lptn_solve::{Proceed, RunStatus};
 use lptn_units::{
@@ -274,7 +275,7 @@ fn csv(bytes: &[u8]) {
     let path = Path::new("a.csv");
     let _ =
         read_record(path, bytes, &RecordQuery::default()).map_err(|problems| rejected(&problems));
-    let _ = read_sheet(path, bytes).map_err(|problems| rejected(&problems));
+    let _ = read_sheet(path, bytes, &CsvOptions::default()).map_err(|problems| rejected(&problems));
 }
 
 /// States that a run starts from.

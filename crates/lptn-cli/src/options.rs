@@ -75,14 +75,41 @@ impl Source {
     }
 }
 
-/// Statements about the form of CSV files, where their contents do not show it.
+/// Statements about the numbers of CSV files, where their contents do not show it.
 #[derive(Clone, Debug, Default, Arguments)]
 #[command(next_help_heading = "CSV files")]
-pub(crate) struct CsvForm {
+pub(crate) struct CsvNumbers {
     /// The decimal sign, . or , if the numbers do not show it
     #[arg(long, value_name = "SIGN", value_parser = [".", ","])]
     #[arg(hide_possible_values = true)]
     pub(crate) decimal: Option<String>,
+    /// The unit of a column whose header does not give it; may be repeated
+    #[arg(long, value_name = "NAME=UNIT")]
+    pub(crate) unit: Vec<String>,
+}
+
+impl CsvNumbers {
+    /// The statements.
+    ///
+    /// # Errors
+    /// If a unit is not one, or belongs to no column.
+    pub(crate) fn options(&self) -> Result<CsvOptions, Failure> {
+        let word = self.decimal.as_deref().unwrap_or_default();
+        let decimal = DECIMALS.iter().find(|(sign, _)| *sign == word);
+        Ok(CsvOptions {
+            decimal: decimal.map(|(_, decimal)| *decimal),
+            units: self.unit.iter().map(|text| unit_of(text)).collect::<Result<_, _>>()?,
+            ..CsvOptions::default()
+        })
+    }
+}
+
+/// Statements about the form of records, where their contents do not show it.
+#[derive(Clone, Debug, Default, Arguments)]
+#[command(next_help_heading = "CSV files")]
+pub(crate) struct CsvForm {
+    #[command(flatten)]
+    pub(crate) numbers: CsvNumbers,
     /// The order of dates: "day first", "month first" or "year first"
     #[arg(long, value_name = "ORDER", value_parser = ["day first", "month first", "year first"])]
     #[arg(hide_possible_values = true)]
@@ -90,25 +117,20 @@ pub(crate) struct CsvForm {
     /// The date and clock time that is 0 s; default: those of the first row
     #[arg(long, value_name = "TIME")]
     pub(crate) start: Option<String>,
-    /// The unit of a column whose header does not give it; may be repeated
-    #[arg(long, value_name = "NAME=UNIT")]
-    pub(crate) unit: Vec<String>,
 }
 
 impl CsvForm {
     /// The statements.
     ///
     /// # Errors
-    /// If a unit is none, or belongs to no column.
+    /// If a unit is not one, or belongs to no column.
     pub(crate) fn options(&self) -> Result<CsvOptions, Failure> {
-        let word = |text: &Option<String>| text.clone().unwrap_or_default();
-        let decimal = DECIMALS.iter().find(|(sign, _)| *sign == word(&self.decimal));
-        let dates = DATE_ORDERS.iter().find(|(order, _)| *order == word(&self.dates));
+        let word = self.dates.as_deref().unwrap_or_default();
+        let dates = DATE_ORDERS.iter().find(|(order, _)| *order == word);
         Ok(CsvOptions {
-            decimal: decimal.map(|(_, decimal)| *decimal),
             dates: dates.map(|(_, order)| *order),
             start: self.start.clone(),
-            units: self.unit.iter().map(|text| unit_of(text)).collect::<Result<_, _>>()?,
+            ..self.numbers.options()?
         })
     }
 }

@@ -21,6 +21,7 @@ use lptn_answer::run::RunQuestion;
 use lptn_answer::size::SizeQuestion;
 use lptn_answer::steady::SteadyQuestion;
 use lptn_answer::verify::VerifyQuestion;
+use lptn_netlist::CsvOptions;
 use lptn_report::Format;
 use lptn_study::SortKey;
 
@@ -97,6 +98,7 @@ fn the_library_compares_as_the_program_does() {
         posterior: None,
         uncertainty: false,
         parts: Vec::new(),
+        csv: CsvOptions::default(),
         cases: false,
         periodic: false,
         sort: SortKey::Margin,

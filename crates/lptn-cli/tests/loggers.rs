@@ -82,3 +82,53 @@ fn options_say_what_a_file_does_not_show() {
     told.says("0 s at 01/02/2026");
     folder.run(&["fit", "step", "r.csv", "--unit", "ring"]).exits(2).says("`--unit ring=degC`");
 }
+
+/// `2,500` is 2.5 or 2500: the tables of `fit law` and of `compare --parts` are refused, and read with
+/// the option that the message names. A column without a unit gets one by `--unit`.
+#[test]
+fn tables_take_a_decimal_sign_and_units() {
+    let points = "omega [rpm];P\n1000;2,500\n2000;7,937\n3000;15,601\n4000;25,198\n5000;36,555\n";
+    let folder = Folder::with("points.csv", points);
+    let law = ["fit", "law", "points.csv", "--no-files", "--unit", "P=W"];
+    let refused = folder.run(&law).exits(2);
+    assert!(refused.err.contains("--decimal ,"), "{}", refused.err);
+    // P = 2.5 W (omega/1000 rpm)^(5/3)
+    let read = folder.run(&[&law[..], &["--decimal", ",", "--format", "json"]].concat()).exits(0);
+    let best = &read.json()["laws"][0];
+    assert_eq!(best["law"], "omega^(5/3)");
+    let alpha = best["coefficients"][0]["value"].as_f64().unwrap();
+    let exact = 2.5 / (1000.0 * std::f64::consts::PI / 30.0_f64).powf(5.0 / 3.0);
+    assert!((alpha / exact - 1.0).abs() < 1e-3, "{alpha} is not {exact}");
+
+    let netlist = r#"
+format = 1
+[param]
+R_sink = "1 K/W"
+[boundary]
+air = { T = "20 degC" }
+[node]
+chip = { C = "10 J/K", T0 = "20 degC" }
+[resistor]
+sink = { from = "chip", to = "air", R = "R_sink" }
+[source]
+heat = { into = "chip", P = "20 W" }
+[limit]
+hot = { of = "chip.T", below = "90 degC" }
+[run]
+stop = "1 h"
+"#;
+    folder.write("chip.toml", netlist);
+    folder.write("sinks.csv", "part;R_sink\nA;1,500\nB;2,900\n");
+    let compare = ["compare", "chip.toml", "--parts", "sinks.csv", "--unit", "R_sink=K/W"];
+    folder.run(&compare).exits(2);
+    let read = folder.run(&[&compare[..], &["--decimal", ",", "--format", "json"]].concat());
+    let peaks: Vec<f64> = read.exits(0).json()["rows"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|row| row[6].as_f64().unwrap())
+        .collect();
+    // 20 degC + 20 W R
+    assert!(peaks.iter().any(|peak| (peak - 50.0).abs() < 1e-3), "{peaks:?}");
+    assert!(peaks.iter().any(|peak| (peak - 78.0).abs() < 1e-3), "{peaks:?}");
+}

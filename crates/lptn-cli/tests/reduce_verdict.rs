@@ -57,7 +57,7 @@ fn regression_the_recommended_pair_does_not_follow_a_short_run() {
     let ran = folder.run(&["reduce", "short.toml", "--port", "s"]).exits(1);
     let first = ran.out.lines().next().unwrap_or_default();
     assert!(first.starts_with("does not collapse: one node is "), "{first}");
-    ran.prints("it reads too cold by at most").prints(&format!("warning: {warning}"));
+    ran.prints("is then too cold by at most").prints(&format!("warning: {warning}"));
 }
 
 /// A constant stream was refused as not linear; 0.1 K/W + 1 / (15 W/K) is exact.

@@ -44,11 +44,12 @@ pub(crate) fn open(
 }
 
 /// True if the first rows have the form of the header: no more or fewer cells, no units, no commas
-/// in quotes.
+/// in quotes, and no other separators in a single column.
 fn is_plain(head: &Head, text: &CsvText) -> bool {
     let mut rows = Reader::rows(&text.text, &Dialect::PLAIN).take(PROBE).peekable();
     let fits = |cells: &csv::StringRecord| {
-        cells.len() == head.columns.len() && !cells.iter().any(|cell| cell.contains(','))
+        let others: &[char] = if cells.len() == 1 { &[',', ';', '\t', '|'] } else { &[','] };
+        cells.len() == head.columns.len() && !cells.iter().any(|cell| cell.contains(others))
     };
     let units = rows.peek().is_some_and(|cells| {
         let bare = || cells.iter().map(str::trim);

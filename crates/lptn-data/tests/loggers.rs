@@ -366,3 +366,20 @@ fn a_date_and_its_clock_need_not_be_neighbours() {
     let text = "Date;Op;Time;T [degC]\n01.05.2026;A;09:00:00;20\n02.05.2026;B;17:00:00;21\n";
     assert_eq!(of(text, CsvOptions::default()).unwrap().time, [0.0, 115_200.0]);
 }
+
+/// A title of one word above columns that tabs separate, and a row without a value between others.
+#[test]
+fn one_word_above_the_header_and_a_blank_row() {
+    let text = "Data1\nTime (s)\tring (\u{b0}C)\n0\t20.1\n60\t30.2\n120\t36.2\n";
+    let record = of(text, CsvOptions::default()).unwrap();
+    assert_eq!(record.time, [0.0, 60.0, 120.0]);
+    assert_eq!(columns(&record), [("ring", vec![20.1, 30.2, 36.2])]);
+    let sheet = |text: &str| {
+        lptn_data::read_sheet(Path::new("n.csv"), text.as_bytes(), &CsvOptions::default())
+    };
+    let (sheet, _) = sheet("name;C [J/K];m [kg]\nn1;10,5;20\nn2;;\nn3;5;30\n").unwrap();
+    for (column, [first, last]) in sheet.columns.iter().zip([[10.5, 5.0], [20.0, 30.0]]) {
+        assert_eq!((column.values[0], column.values[2]), (first, last));
+        assert!(column.values[1].is_nan());
+    }
+}

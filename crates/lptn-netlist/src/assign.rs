@@ -1,7 +1,6 @@
 //! `--set`: other values for parameters, checked like those of the file.
 
-use std::collections::HashSet;
-
+use foldhash::{HashSet, HashSetExt as _};
 use lptn_data::{Diagnostic, FileId, Files, Rejected, Span, on_borders};
 use lptn_network::{
     BuildError, Course, Field, GridFace, Item, Material, Network, ParameterError, ParameterId,
@@ -167,6 +166,13 @@ impl Netlist {
                     let problem = problem.also(self.source_map.name(Item::Signal(id)), "a signal");
                     return problem.help(
                         "a signal changes with time: scale it with a parameter, and set that",
+                    );
+                }
+                if let Ok(item) = self.network.item(&unknown.name) {
+                    let problem = problem.also(self.source_map.name(item), item.word());
+                    return problem.help(
+                        "only parameters can be set: write its value into [param], and the name \
+                         of the parameter here and in the element",
                     );
                 }
                 if let Some((place, help)) = self.parameter_for(name.trim()) {

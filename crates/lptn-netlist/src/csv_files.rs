@@ -1,9 +1,9 @@
 //! The CSV files that a netlist names, and how they are loaded.
 
-use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use foldhash::{HashMap, HashMapExt as _};
 use lptn_data::{CsvFile, CsvOptions, CsvText, Diagnostic, Files, Span};
 
 use crate::csv_form::options;

@@ -5,9 +5,9 @@
 //! the first problem of an element and loses spans in tagged and flattened forms. lptn reports all
 //! problems, with the places of key and value.
 
-use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
+use foldhash::{HashMap, HashMapExt as _, HashSet, HashSetExt as _};
 use lptn_data::{Diagnostic, Severity, Span};
 use lptn_network::{Network, NetworkBuilder};
 use lptn_units::Unit;

@@ -2,10 +2,10 @@
 //!
 //! Includes are merged as raw trees before names are resolved, so that spans keep their file.
 
-use std::collections::{HashMap, HashSet};
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
+use foldhash::{HashMap, HashSet, HashSetExt as _};
 use lptn_data::{Diagnostic, FileId, Files, MOST_BYTES, Severity, Span};
 
 use crate::duplicate;

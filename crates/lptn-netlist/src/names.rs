@@ -1,9 +1,10 @@
 //! The names of a netlist and their meanings.
 
 use std::cell::RefCell;
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use foldhash::{HashMap, HashSet};
 use lptn_data::Span;
 use lptn_network::FaceStreamId;
 use lptn_units::Expression;

@@ -1,10 +1,10 @@
 //! The whole way: text to [`Netlist`], or all errors.
 
-use std::collections::HashSet;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
+use foldhash::HashSet;
 use lptn_data::{
     Diagnostic, FileId, Files, ReadError, Rejected, Severity, Span, arrange, read_bytes,
     read_named, shorten,

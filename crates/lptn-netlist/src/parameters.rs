@@ -1,7 +1,6 @@
 //! `[param]`: values in the order in which they depend on each other.
 
-use std::collections::HashMap;
-
+use foldhash::HashMap;
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{Field, Item};
 use lptn_units::{Quantity, Type};

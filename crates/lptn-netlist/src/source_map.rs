@@ -1,8 +1,9 @@
 //! The place of each part of a network in its files.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 use std::ops::Range;
 
+use foldhash::HashMap;
 use lptn_data::{Files, Span};
 use lptn_network::{BuildErrorKind, Field, Item, Naming, NodeId, ParameterId, TableId};
 

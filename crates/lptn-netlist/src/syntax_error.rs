@@ -1,8 +1,8 @@
 //! Broken TOML, explained in the terms of a netlist.
 
-use std::collections::HashSet;
 use std::ops::Range;
 
+use foldhash::{HashSet, HashSetExt as _};
 use toml::de::Error;
 
 use lptn_data::{Diagnostic, FileId, Span, on_borders};

@@ -1,7 +1,6 @@
 //! The work in progress: the network as far as it is built, and everything found on the way.
 
-use std::collections::{HashMap, HashSet};
-
+use foldhash::{HashMap, HashSet};
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{
     BuildError, BuildErrorKind, FluidId, Input, Item, MaterialId, Naming, NetworkBuilder,

@@ -415,6 +415,6 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     FaceArea { item: Item, given: f64, face: GridFace, name: String, area: f64 } =
         "network::face_area", at Field::of_law("area").map(|field| (*item, field)),
         says face_area(say, *given, (name, *area)),
-        help text("leave `area` out; a part of a face is a `patch` of the grid");
+        help text("leave `area` out, or write that of the face; a part of a face is a `patch`");
 }
 }

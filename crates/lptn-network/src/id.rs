@@ -1,5 +1,7 @@
 //! Typed ids: dense indices that belong to one network.
 
+use std::sync::LazyLock;
+
 use lptn_laws::Formula;
 
 use crate::parts::face::Face;
@@ -286,9 +288,22 @@ pub struct LawField {
 impl LawField {
     /// The field of this key of any law.
     pub fn any(key: &str) -> Option<Self> {
-        let position = |law: &Formula| Some((*law, law.position(key)?));
-        let (law, position) = Formula::ALL.iter().find_map(position)?;
-        Some(Self { law, position: position as u8 })
+        // needed for each value of each path, so sorted once
+        static FIELDS: LazyLock<Vec<(&str, LawField)>> = LazyLock::new(LawField::by_key);
+        let found = FIELDS.binary_search_by_key(&key, |(key, _)| key).ok()?;
+        Some(FIELDS[found].1)
+    }
+
+    /// The first field of each key, in the order of the keys.
+    fn by_key() -> Vec<(&'static str, Self)> {
+        let of = |law: &Formula| {
+            let (law, fields) = (*law, law.declaration().fields);
+            (0..).zip(fields).map(move |(position, field)| (field.key, Self { law, position }))
+        };
+        let mut fields: Vec<_> = Formula::ALL.iter().flat_map(of).collect();
+        fields.sort_by_key(|(key, _)| *key);
+        fields.dedup_by_key(|(key, _)| *key);
+        fields
     }
 }
 

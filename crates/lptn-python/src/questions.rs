@@ -105,6 +105,7 @@ pub(crate) fn compare(asked: &Asked<'_>, words: &Words) -> Outcome {
         posterior: words.text("posterior").map(PathBuf::from),
         uncertainty: words.flag("uncertainty"),
         parts: words.texts("parts").into_iter().map(PathBuf::from).collect(),
+        csv: CsvOptions::default(),
         cases: words.flag("cases"),
         periodic: words.flag("periodic"),
         sort: sort.unwrap_or(SortKey::Margin),
@@ -256,6 +257,7 @@ pub(crate) fn fit_law(asked: &Asked<'_>, words: &Words) -> Outcome {
         columns: words.texts("column"),
         reference: Some(words.text("reference").unwrap_or_else(|| "initial".to_owned())),
         sensor: words.text("sensor"),
+        csv: CsvOptions::default(),
         command: Vec::new(),
     };
     if points.is_dir() {

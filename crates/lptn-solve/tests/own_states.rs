@@ -349,8 +349,9 @@ impl Plant {
 
 #[test]
 fn random_plants_with_states_are_those_of_runge_and_kutta() {
+    let count = std::env::var("LPTN_PLANTS").map_or(60, |count| count.parse().unwrap());
     let (mut random, mut worst) = (Random(11), 0.0_f64);
-    for _ in 0..60 {
+    for _ in 0..count {
         let plant = Plant::new(&mut random);
         let text = plant.text();
         let network = network(&text);
@@ -434,6 +435,50 @@ fn a_state_that_drifts_at_the_end_has_no_steady_state() {
                 near(rate, 0.2, 1e-6);
             }
             other => panic!("{other:?}"),
+        }
+    }
+}
+
+/// A layer of ice that grows and melts in a cycle of cold and no cold: it stops at its thickest, on
+/// its least thickness, or rests there all the time. Each network against explicit steps of 0.05 s
+/// over many cycles.
+#[test]
+fn periodic_states_stay_within_their_bounds() {
+    for (start, growth, resistance, least, most) in [
+        (0.0, 0.1, 0.05, 0.0, 5.0),
+        (0.0, 0.1, 0.1, 0.0, 5.0),
+        (5.0, 0.1, 0.1, 0.0, 5.0),
+        (1.0, 0.3, 0.05, 0.5, 2.0),
+        (1.0, -0.3, 0.05, 0.5, 2.0),
+    ] {
+        let text = format!(
+            "format = 1\n[signal]\nP = {{ t = [\"0 s\", \"40 min\", \"60 min\"], v = [\"-50 W\", \"0 W\", \
+             \"-50 W\"], interp = \"previous\", after_end = \"repeat\", period = \"1 h\" }}\n[node]\nc = {{ C = \"1 \
+             kJ/K\", T0 = \"5 degC\" }}\n[boundary]\nair = {{ T = \"8 degC\" }}\n[state]\nice = {{ rate = \
+             \"{growth} [mm/(K h)] * (0 [degC] - c.T)\", start = \"{start} mm\", min = \"{least} mm\", max = \
+             \"{most} mm\" }}\n[resistor]\nr = {{ from = \"c\", to = \"air\", R = \"0.4 [K/W] + {resistance} [K/W] \
+             * ice / 1 [mm]\" }}\n[source]\ns = {{ into = \"c\", P = \"P\" }}\n"
+        );
+        let (mut c, mut ice, mut seen) = (5.0_f64, start, Vec::new());
+        for step in 0..72_000 * 150 {
+            let of_cycle = step % 72_000;
+            if step >= 72_000 * 149 && of_cycle % 6000 == 0 {
+                seen.push((c, ice));
+            }
+            let power = if of_cycle < 48_000 { -50.0 } else { 0.0 };
+            let flow = (8.0 - c) / (0.4 + resistance * ice) + power;
+            ice = f64::clamp(ice - 0.05 / 3600.0 * growth * c, least, most);
+            c += 0.05 / 1000.0 * flow;
+        }
+        let system = ThermalSystem::assemble(&network(&text)).unwrap();
+        let times: Vec<f64> = (0..12).map(|i| 300.0 * f64::from(i)).collect();
+        let settings = Transient::until(Time(3600.0)).at(&times).tolerance(1e-5);
+        let found = Periodic::find(&system, &settings);
+        let found = found.unwrap_or_else(|error| panic!("{error}, right {:?}\n{text}", seen[0]));
+        let (body, layer) = (column(&found.solution, "c.T"), column(&found.solution, "ice"));
+        for (i, (c, ice)) in seen.into_iter().enumerate() {
+            near(body[i] - ZERO, c, 2e-3);
+            near(layer[i], ice, 1e-4);
         }
     }
 }

@@ -21,7 +21,7 @@ pub(super) fn jobs(
     let sets = of_sets(&args.set).ok_or_else(|| too_many("--set"))?;
     let mut jobs = Vec::new();
     for file in &args.files {
-        let all = variants::with_parts(file, &args.parts, (&sets, listener))?;
+        let all = variants::with_parts(file, (&args.parts, &args.csv), (&sets, listener))?;
         let all = all.ok_or_else(|| too_many("--parts"))?;
         let all = if args.cases { variants::in_cases(file, &all) } else { all };
         jobs.extend(all.into_iter().map(|variant| (file.clone(), variant)));

@@ -11,7 +11,7 @@ mod variants;
 
 use std::path::PathBuf;
 
-use lptn_netlist::Files;
+use lptn_netlist::{CsvOptions, Files};
 use lptn_solve::{available_threads, in_parallel};
 use lptn_study::{SortKey, order};
 
@@ -40,6 +40,8 @@ pub struct CompareQuestion {
     pub uncertainty: bool,
     /// Tables of parts, each of which makes a candidate.
     pub parts: Vec<PathBuf>,
+    /// Statements about the form of these tables, where their contents do not show it.
+    pub csv: CsvOptions,
     /// True if every netlist is taken in each of its load cases.
     pub cases: bool,
     /// True if settled cycles are compared instead of runs.

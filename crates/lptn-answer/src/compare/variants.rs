@@ -55,7 +55,7 @@ pub fn of_sets(set: &[String]) -> Option<Vec<Variant>> {
 /// Problems of a table for this netlist.
 pub(super) fn with_parts(
     file: &Path,
-    tables: &[PathBuf],
+    (tables, csv): (&[PathBuf], &CsvOptions),
     (variants, listener): (&[Variant], &dyn Listener),
 ) -> Result<Option<Vec<Variant>>, Failure> {
     let mut all = variants.to_vec();
@@ -69,7 +69,7 @@ pub(super) fn with_parts(
             let message = format!("cannot read {name}: {error}");
             Failure::new(Exit::Input, Diagnostic::error("input::cannot_read", message))
         })?;
-        let (parts, files) = input.netlist.parts((&name, &bytes), &CsvOptions::default())?;
+        let (parts, files) = input.netlist.parts((&name, &bytes), csv)?;
         parts.note.iter().for_each(|note| listener.warn(&files, std::slice::from_ref(note)));
         if all.len() * parts.parts.len() > MOST {
             return Ok(None);

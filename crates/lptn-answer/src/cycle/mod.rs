@@ -255,6 +255,12 @@ impl CycleAnswer {
         columns.map(member).collect()
     }
 
+    /// Possible error of the temperatures of the cycle in K: that of its start, and ten tolerances
+    /// of the integration.
+    pub fn error(&self) -> f64 {
+        self.found.error + 10.0 * self.run.task.settings.tolerance
+    }
+
     fn search(&self) -> Value {
         let found = &self.found;
         let kelvin = |value: f64| scale::of_difference(value, &self.run.task.unit);
@@ -268,7 +274,8 @@ impl CycleAnswer {
             "steps": found.steps,
             "flow_evaluations": found.flow_evaluations,
             "residual": kelvin(found.residual),
-            "error": kelvin(found.error),
+            "start_error": kelvin(found.error),
+            "error": kelvin(self.error()),
             "multiplier": found.multiplier,
             "time_constant": self.slowest().map(|tau| SiValue::new(tau, "s")),
         })

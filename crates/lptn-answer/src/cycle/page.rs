@@ -174,15 +174,15 @@ fn found_section(text: &mut Text, view: &CycleAnswer) {
     );
     text.section().line(format!("cycle:   {cycle}"));
     text.labelled("found:   ", pieces);
-    let bound = if found.error.is_finite() {
-        format!("at most about {}", kelvin(found.error))
-    } else {
-        "not known".into()
+    let bound = match (found.error, view.error()) {
+        (start, whole) if whole.is_finite() => format!(
+            "error of the start at most about {}, of the cycle {}",
+            kelvin(start),
+            kelvin(whole)
+        ),
+        _ => "error of the start not known".to_owned(),
     };
-    let ends = vec![
-        format!("end and start differ by {},", kelvin(found.residual)),
-        format!("error of the periodic steady state {bound}"),
-    ];
+    let ends = vec![format!("end and start differ by {},", kelvin(found.residual)), bound];
     text.labelled("settled: ", ends);
     if let (Some(tau), Some(rho)) = (view.slowest(), found.multiplier) {
         let about = if found.method == CycleMethod::Modes { "" } else { "about " };

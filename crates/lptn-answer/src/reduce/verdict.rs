@@ -84,7 +84,8 @@ impl ReduceAnswer {
         text
     }
 
-    /// "it reads too cold by at most 6.44 K, at 23.1 min; within 5% from 2 h on".
+    /// "`steel` is then too cold by at most 6.44 K, at 23.1 min; within 5% from 2 h on; other nodes
+    /// are not judged".
     fn manner(&self, judge: Judge, error: &Deviation) -> String {
         let side = if error.signed < 0.0 { "cold" } else { "warm" };
         let time = duration(error.time, 3);
@@ -98,7 +99,8 @@ impl ReduceAnswer {
             Some(from) => format!("within {limit} from {} on", duration(from, 3)),
             None => format!("not within {limit} at the end of the run"),
         };
-        format!("it reads too {side} by at most {most}; {good}")
+        let port = self.port();
+        format!("`{port}` is then too {side} by at most {most}; {good}; other nodes are not judged")
     }
 
     pub(super) fn verdict_json(&self) -> Value {

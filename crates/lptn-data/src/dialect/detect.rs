@@ -73,6 +73,12 @@ impl<'t> Sheet<'t> {
         sound && values > 0 && self.cells[line].len() >= self.width.min(2)
     }
 
+    /// True for a row without any value, such as that of a massless node among capacities.
+    fn is_blank(&self, line: usize) -> bool {
+        let row = &self.cells[line];
+        row.len() == self.width && self.columns.iter().all(|&column| is_hole(row[column]))
+    }
+
     /// True for a line with values in half of the columns, of which some may be wrong.
     fn is_nearly_row(&self, line: usize) -> bool {
         let row = &self.cells[line];
@@ -107,9 +113,9 @@ impl<'t> Sheet<'t> {
 
     fn dialect(&self) -> Option<Dialect> {
         let last = self.cells.len();
-        let confirmed = |line: &usize| *line + 1 == last || self.is_row(line + 1);
-        let mut first = (0..last).filter(|line| self.is_row(*line)).find(confirmed)?;
-        while first > 0 && self.is_nearly_row(first - 1) {
+        let below = |line: usize| line == last || self.is_row(line) || self.is_blank(line);
+        let mut first = (0..last).find(|line| self.is_row(*line) && below(line + 1))?;
+        while first > 0 && (self.is_nearly_row(first - 1) || self.is_blank(first - 1)) {
             first -= 1;
         }
         let near = || (first.saturating_sub(BELOW)..first).rev();

@@ -43,20 +43,29 @@ impl DataSheet {
 }
 
 /// Reads a CSV file of points. Comments, gaps, separators and units are treated as in a record.
+/// `options` are the statements about its form; dates have no place in it.
 ///
 /// # Errors
 /// [`Rejected`] with every problem, each with a code `record::problem` and its line.
-pub fn read_sheet(path: &Path, bytes: &[u8]) -> Result<(DataSheet, Files), Rejected> {
+pub fn read_sheet(
+    path: &Path,
+    bytes: &[u8],
+    options: &CsvOptions,
+) -> Result<(DataSheet, Files), Rejected> {
     let mut files = Files::new();
-    match parse(&mut files, &path.display().to_string(), bytes) {
+    match parse(&mut files, (&path.display().to_string(), bytes), options) {
         Ok(sheet) => Ok((sheet, files)),
         Err(diagnostics) => Err(Rejected::new(files, diagnostics)),
     }
 }
 
-fn parse(files: &mut Files, name: &str, bytes: &[u8]) -> Result<DataSheet, Vec<Diagnostic>> {
+fn parse(
+    files: &mut Files,
+    (name, bytes): (&str, &[u8]),
+    options: &CsvOptions,
+) -> Result<DataSheet, Vec<Diagnostic>> {
     let text = CsvText::of(files, name.to_owned(), bytes).map_err(|problem| vec![problem])?;
-    let head = open(&text, &CsvOptions::default(), (hints::RECORD, EXAMPLE));
+    let head = open(&text, options, (hints::RECORD, EXAMPLE));
     let head = head.map_err(|problem| vec![problem])?;
     let note = head.note(&text, Vec::new());
     let mut records = head.reader(&text.text).peekable();

@@ -8,6 +8,8 @@ mod read;
 mod surface;
 mod view;
 
+use std::sync::Arc;
+
 use lptn_data::{Diagnostic, Span};
 use lptn_laws::Kind;
 
@@ -68,12 +70,22 @@ const SURFACE: SectionDeclaration = SectionDeclaration {
 };
 
 /// Replaces every enclosure by massless nodes and radiation paths.
-pub(crate) fn expand(raw: &mut RawNetlist, structure: &Structure, problems: &mut Vec<Diagnostic>) {
+pub(crate) fn expand(
+    raw: &mut RawNetlist,
+    structure: &mut Arc<Structure>,
+    problems: &mut Vec<Diagnostic>,
+) {
     for entry in raw.take(ENCLOSURE.name) {
         let Some(read) = Read::of(&entry, problems) else { continue };
         let here = here(structure, &entry);
         let written = Written { full: &entry.key, here, at: &entry.key_span, raw };
-        written.all(&read);
+        let areas = written.all(&read);
+        if !areas.is_empty() {
+            let structure = Arc::make_mut(structure);
+            for (path, surface) in areas {
+                structure.note_surface_area(path, surface.area, surface.area_at);
+            }
+        }
     }
 }
 
@@ -87,24 +99,28 @@ struct Written<'w> {
 }
 
 impl Written<'_> {
-    fn all(mut self, read: &Read<'_>) {
+    /// Writes it; the paths that end at a surface itself, each with the surface.
+    fn all<'r>(mut self, read: &'r Read<'r>) -> Vec<(String, &'r Surface<'r>)> {
+        let mut areas = Vec::new();
         for surface in &read.surfaces {
-            self.surface(surface);
+            areas.extend(self.surface(surface).map(|path| (path, surface)));
         }
         for &(i, j, exchange) in &read.exchange {
             let [a, b] = [&read.surfaces[i], &read.surfaces[j]];
             let name = format!("{}.{}.{}", self.full, a.name, b.name);
             let ends = [self.radiosity(a), self.radiosity(b)];
             self.path(&name, ends, format!("{exchange} m^2"), self.at);
+            areas.extend([a, b].into_iter().find(|s| s.is_black()).map(|surface| (name, surface)));
         }
+        areas
     }
 
     /// The radiosity of a grey surface, and the path to it, given by its exchange area: a law with the
-    /// emissivity as a field would have a second field that depends on it.
-    fn surface(&mut self, surface: &Surface<'_>) {
+    /// emissivity as a field would have a second field that depends on it. The name of the path.
+    fn surface(&mut self, surface: &Surface<'_>) -> Option<String> {
         let area = surface.area;
         let exchange = match &surface.emissivity {
-            Emissivity::Black => return,
+            Emissivity::Black => return None,
             Emissivity::Number(e) => format!("{} m^2", area * e / (1.0 - e)),
             Emissivity::Follows(text) => format!("({text}) / (1 - ({text})) * {area} [m^2]"),
         };
@@ -115,6 +131,7 @@ impl Written<'_> {
             .push(NODE.name, RawEntry::new(&format!("{name}.J"), RawValue::table(fields, self.at)));
         let ends = [RawValue::text(surface.name.to_owned(), surface.at), self.radiosity(surface)];
         self.path(&name, ends, exchange, surface.emissivity_at);
+        Some(name)
     }
 
     /// The end that stands for the radiosity of a surface.

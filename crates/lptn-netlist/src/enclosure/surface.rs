@@ -15,6 +15,7 @@ pub(super) struct Surface<'r> {
     pub(super) at: &'r Span,
     /// In m^2.
     pub(super) area: f64,
+    pub(super) area_at: &'r Span,
     pub(super) emissivity: Emissivity,
     pub(super) emissivity_at: &'r Span,
 }
@@ -30,6 +31,11 @@ pub(super) enum Emissivity {
 }
 
 impl<'r> Surface<'r> {
+    /// True if its emissivity is 1: it is its own radiosity.
+    pub(super) fn is_black(&self) -> bool {
+        matches!(self.emissivity, Emissivity::Black)
+    }
+
     /// Reads a surface and reports its errors; `None` if there are any.
     pub(super) fn of(
         fields: &Fields<'r>,
@@ -40,11 +46,19 @@ impl<'r> Surface<'r> {
         let own = Fields::of(&SURFACE, owner, entry, problems)?;
         let (area, at) = (own.require("area", problems), own.require("emissivity", problems));
         let (area, at) = (area?, at?);
+        let area_at = &area.span;
         let area = self::area(&own, area).map_err(|problem| problems.push(problem));
         let emissivity = self::emissivity(&own, at).map_err(|problem| problems.push(problem));
         let (area, emissivity) = (area.ok()?, emissivity.ok()?);
         let emissivity_at = &at.span;
-        Some(Self { name: &entry.key, at: &entry.key_span, area, emissivity, emissivity_at })
+        Some(Self {
+            name: &entry.key,
+            at: &entry.key_span,
+            area,
+            area_at,
+            emissivity,
+            emissivity_at,
+        })
     }
 }
 

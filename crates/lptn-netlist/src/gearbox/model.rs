@@ -1,7 +1,6 @@
 //! The data of a stage of gears after it is written out.
 
-use std::collections::HashMap;
-
+use foldhash::HashMap;
 use lptn_data::Span;
 use lptn_units::Type;
 

@@ -1,7 +1,6 @@
 //! Checks of a flow network as a whole: references, dead ends, flows that no pressure changes.
 
-use std::collections::HashMap;
-
+use foldhash::HashMap;
 use lptn_data::Diagnostic;
 
 use crate::hydraulic::JUNCTION;

@@ -9,9 +9,9 @@ mod start;
 pub(crate) use start::warnings;
 
 use std::borrow::Cow;
-use std::collections::HashMap;
 use std::path::Path;
 
+use foldhash::{HashMap, HashMapExt as _};
 use lptn_data::{Diagnostic, Files, Span};
 
 use crate::include::Loader;

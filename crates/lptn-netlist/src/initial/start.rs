@@ -1,7 +1,6 @@
 //! Initial temperatures of nodes from a state.
 
-use std::collections::HashSet;
-
+use foldhash::HashSet;
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{End, Field, Input, Item, Network, NodeId, Temperature};
 use lptn_units::{Quantity, Type, suggest};

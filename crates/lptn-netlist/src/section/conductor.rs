@@ -45,12 +45,25 @@ impl<'a> Elaboration<'a> {
             Item::FacePath(_) => {
                 self.map.face_path(section.name);
                 self.note_parts(before, item, section.name);
+                self.check_surface_area(item, &entry.key);
             }
             _ => self.map.conductor(section.name),
         }
         self.map_fields((item, of), &fields, (from, to));
         self.map.insert(item, Field::Name, entry.key_span.clone());
         Some(())
+    }
+
+    /// A surface of an enclosure that is a face has the area of the face.
+    fn check_surface_area(&mut self, item: Item, name: &str) {
+        let (Item::FacePath(id), Some((area, at))) = (item, self.structure.surface_area(name))
+        else {
+            return;
+        };
+        self.builder.declare_face_area(id, *area);
+        if let Some(field) = Field::of_law("area") {
+            self.map.insert(item, field, at.clone());
+        }
     }
 
     pub(super) fn map_fields(

@@ -1,10 +1,9 @@
 //! Makes the elements of every instance.
 
-use std::collections::{HashMap, HashSet};
-
 use super::definition::{Template, taken_twice};
 use super::plan::{MOST_INSTANCES, Plan, of_instance, plan};
 use super::structure::{Connection, Copied, INDEX, Inside, Instance, Structure, Used};
+use foldhash::{HashMap, HashMapExt as _, HashSet};
 use lptn_data::{CopyId, Diagnostic, Files, Span};
 
 use crate::format::{NetlistFormat, Role};

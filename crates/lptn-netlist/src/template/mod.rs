@@ -16,9 +16,9 @@ mod plan;
 mod structure;
 mod wrong_path;
 
-use std::collections::HashSet;
 use std::sync::Arc;
 
+use foldhash::HashSet;
 use lptn_data::{Diagnostic, Files, Severity};
 
 use crate::format::{

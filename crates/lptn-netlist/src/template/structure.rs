@@ -1,7 +1,8 @@
 //! The result of the templates of a netlist: its instances, and the meaning of names inside them.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::BTreeMap;
 
+use foldhash::{HashMap, HashSet};
 use lptn_data::{CopyId, Files, Span};
 use lptn_units::Type;
 
@@ -25,6 +26,8 @@ pub(crate) struct Structure {
     pub(super) types: HashMap<String, (Type, Span)>,
     /// Uses that could not be read: their elements are missing.
     pub(super) lost: Vec<String>,
+    /// The area in m^2 of the surface at which a path of an enclosure ends, and its place.
+    surface_areas: HashMap<String, (f64, Span)>,
 }
 
 /// The names inside a template.
@@ -97,6 +100,16 @@ pub(super) fn root(path: &str) -> &str {
 }
 
 impl Structure {
+    /// Notes the area in m^2 of the surface at which this path of an enclosure ends.
+    pub(crate) fn note_surface_area(&mut self, path: String, area: f64, at: &Span) {
+        self.surface_areas.insert(path, (area, at.clone()));
+    }
+
+    /// The area in m^2 of the surface at which this path of an enclosure ends.
+    pub(crate) fn surface_area(&self, path: &str) -> Option<&(f64, Span)> {
+        self.surface_areas.get(path)
+    }
+
     fn instance(&self, copy: CopyId) -> Option<(&Instance, &Inside)> {
         match self.copies.get(copy.index()?)? {
             Copied::Instance(instance) => Some((instance, self.insides.get(instance.inside)?)),

@@ -194,6 +194,14 @@ impl NetworkBuilder {
         Some(self.parts.grids.get(grid.index())?.form())
     }
 
+    /// States the area in m^2 that a path with an exchange area belongs to. It has to be that of the
+    /// face or patch at which the path ends.
+    pub fn declare_face_area(&mut self, path: FacePathId, area: f64) {
+        if let Some(path) = self.parts.face_paths.get_mut(path.index()) {
+            path.area = Some(Value::Constant(area));
+        }
+    }
+
     /// The area of a face, for a path whose area is that of the face; `None` if the grid is not of
     /// this builder.
     pub fn face_area(&self, at: GridFace) -> Option<Input> {

@@ -60,6 +60,12 @@ impl Network {
         state.value(nodes[state.node.index()]).max(least).min(most)
     }
 
+    /// Least and greatest temperature in K of the node of a state: its bounds.
+    pub fn state_bounds(&self, id: StateId) -> [f64; 2] {
+        let state = &self.states()[id.index()];
+        self.numbers.bounds[id.index()].map(|bound| state.kelvin(bound))
+    }
+
     /// The values of all states, as [`Network::state_value`].
     pub fn state_values<'a>(&'a self, nodes: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
         self.state_ids().map(|id| self.state_value(id, nodes))

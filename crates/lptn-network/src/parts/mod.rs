@@ -40,9 +40,9 @@ pub(crate) mod switch;
 pub(crate) mod whole;
 
 use std::borrow::Cow;
-use std::collections::HashMap;
 use std::sync::Arc;
 
+use foldhash::HashMap;
 use lptn_units::TableSymbol;
 
 use crate::along::Along;

@@ -1,7 +1,7 @@
 //! The map from the start of a cycle to its end.
 
 use lptn_assembly::ThermalSystem;
-use lptn_network::{ControlId, OutputTimes};
+use lptn_network::{ControlId, OutputTimes, StateId};
 
 use super::error::PeriodicError;
 use super::secants::Shot;
@@ -38,6 +38,19 @@ pub(super) struct Cycles<'a> {
     pub(super) same_times: bool,
     /// Switches of the last cycle, in order.
     switched: Vec<(EventKind, u8)>,
+    /// The places of the states of one's own, with their bounds in K.
+    bounds: Vec<(usize, [f64; 2])>,
+}
+
+/// The places of the states of one's own among the states, with their bounds in K.
+fn bounds(system: &ThermalSystem) -> Vec<(usize, [f64; 2])> {
+    let network = system.network();
+    let bounded = |id: StateId| {
+        let node = network.states()[id.index()].node;
+        let place = system.states().iter().position(|state| *state == node)?;
+        Some((place, network.state_bounds(id)))
+    };
+    network.state_ids().filter_map(bounded).collect()
 }
 
 impl<'a> Cycles<'a> {
@@ -61,6 +74,7 @@ impl<'a> Cycles<'a> {
             repeats,
             same_times: repeats,
             switched,
+            bounds: bounds(system),
         }
     }
 
@@ -106,7 +120,7 @@ impl<'a> Cycles<'a> {
         settings: &Transient,
         start: Vec<f64>,
     ) -> Result<(Shot, Solution), PeriodicError> {
-        let from = State::of_carried(start).standing(self.stood.clone());
+        let from = State::of_carried(self.bounded(start)).standing(self.stood.clone());
         let settings = &Transient { controls: self.controls.clone(), ..settings.clone() };
         let solution =
             settings.solve_from(self.system, &from, self.observer).map_err(PeriodicError::Cycle)?;
@@ -124,6 +138,26 @@ impl<'a> Cycles<'a> {
         let shot = Shot { start, end, noise: settings.tolerance };
         self.last = Some(shot.residual());
         Ok((shot, solution))
+    }
+
+    /// A start with each state of one's own between its bounds: beyond a bound its rate is zero, so
+    /// that a cycle would lead back to any value.
+    fn bounded(&self, mut start: Vec<f64>) -> Vec<f64> {
+        self.bounds
+            .iter()
+            .for_each(|(i, [least, most])| start[*i] = start[*i].max(*least).min(*most));
+        start
+    }
+
+    /// True if a state of one's own would begin a cycle beyond a bound.
+    pub(super) fn leaves_bounds(&self, start: &[f64]) -> bool {
+        self.bounds.iter().any(|(i, [least, most])| start[*i] < *least || start[*i] > *most)
+    }
+
+    /// True if a state of one's own is at a bound, to the tolerance.
+    pub(super) fn is_at_bound(&self, state: &[f64]) -> bool {
+        let near = |i: usize, bound: f64| (state[i] - bound).abs() <= self.settings.tolerance;
+        self.bounds.iter().any(|(i, [least, most])| near(*i, *least) || near(*i, *most))
     }
 
     /// Compares the states of controls at the end with those at the start, their remaining dwell

@@ -89,7 +89,9 @@ pub(super) struct Search<'a, 'b> {
     multiplier: Option<f64>,
     /// The multiplier from the network's own balances; 0 as long as it is not computed.
     frozen: f64,
-    /// The cycle integrated last, if it was not the best.
+    /// The cycle integrated last.
+    last: Option<Shot>,
+    /// The same, if it was not the best.
     astray: Option<Shot>,
     /// Number of these in a row.
     strayed: usize,
@@ -124,6 +126,7 @@ impl<'a, 'b> Search<'a, 'b> {
             idle: 0,
             multiplier: None,
             frozen: 0.0,
+            last: None,
             astray: None,
             strayed: 0,
             reach: REACH,
@@ -145,6 +148,10 @@ impl<'a, 'b> Search<'a, 'b> {
     /// Takes the slowest part of the network from the best state, at two moments of the cycle.
     fn remember(&mut self) {
         let Some(best) = &self.best else { return };
+        // it has no memory there, and no balance
+        if self.cycles.is_at_bound(&best.end) {
+            return;
+        }
         let (start, period) = self.cycles.span();
         let times = [start, start + 0.5 * period];
         let slowest = times
@@ -229,6 +236,7 @@ impl<'a, 'b> Search<'a, 'b> {
 
     fn take(&mut self, shot: Shot) -> Verdict {
         let residual = shot.residual();
+        self.last = Some(shot.clone());
         self.least = self.least.min(residual);
         let best = self.best.as_ref().map_or(f64::INFINITY, Shot::residual);
         self.idle = if residual < 0.5 * best { 0 } else { self.idle + 1 };
@@ -274,6 +282,12 @@ impl<'a, 'b> Search<'a, 'b> {
         let best = self.best.as_ref().ok_or(none)?;
         let rho = self.multiplier.unwrap_or(UNKNOWN).min(SLOWEST);
         let next = self.secants.next(best, self.reach * best.residual() / (1.0 - rho));
+        if let (Some(start), Some(last)) = (&next, &self.last)
+            && self.cycles.leaves_bounds(start)
+        {
+            // the slopes of the map are others beyond the bound: one cycle as it comes
+            return Ok(Next { start: last.end.clone(), blind: false });
+        }
         let blind = next.is_none();
         Ok(Next { start: next.unwrap_or_else(|| best.end.clone()), blind })
     }

@@ -13,7 +13,7 @@ use lptn_fit::law::{
     Consistency, LawError, LawFit, LawStudy, LossLaw, Measured, Outcome, Start, WrittenLaw,
 };
 use lptn_fit::step::Capacity;
-use lptn_netlist::{Diagnostic, Files, Posterior, Span};
+use lptn_netlist::{CsvOptions, Diagnostic, Files, Posterior, Span};
 use lptn_units::{Dimension, parse_quantity};
 
 use crate::answer::Answer;
@@ -54,6 +54,8 @@ pub struct FitLawQuestion {
     pub reference: Option<String>,
     /// The class error of the thermocouples of records, `3 K`; `None` for exact ones.
     pub sensor: Option<String>,
+    /// Statements about the form of the files, where their contents do not show it.
+    pub csv: CsvOptions,
     /// The words of the command that asked, for reports; empty if a program asked.
     pub command: Vec<String>,
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args as Arguments;
 use lptn_study::SortKey;
 
-use crate::options::{Printed, Scale, TEMPLATE, one_of};
+use crate::options::{CsvNumbers, Printed, Scale, TEMPLATE, one_of};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -53,4 +53,7 @@ pub(crate) struct CompareArgs {
     /// Use this number of threads instead of all; the result is the same
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<usize>,
+    // its heading would be that of options below it
+    #[command(flatten)]
+    pub(crate) csv: CsvNumbers,
 }

@@ -24,6 +24,7 @@ pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Fai
         posterior: args.posterior.clone(),
         uncertainty: args.uncertainty,
         parts: args.parts.clone(),
+        csv: args.csv.options()?,
         cases: args.cases,
         periodic: args.periodic,
         sort: args.sort,

@@ -9,8 +9,9 @@ use lptn_answer::run::uncertainty::{self, UncertaintyQuestion};
 #[derive(Debug, Default, Arguments)]
 #[command(next_help_heading = "Uncertainty")]
 pub(crate) struct UncertaintyArgs {
-    /// Bands from every `±`, by linear or sobol
+    /// Bands from every `±`, by linear or sobol [linear]
     #[arg(long, value_name = "METHOD", hide_possible_values = true)]
+    #[arg(num_args = 0..=1, default_missing_value = "linear")]
     pub(crate) uncertainty: Option<Method>,
     /// Take values and their covariance from a fit, not those of the netlist
     #[arg(long, value_name = "FILE.json")]

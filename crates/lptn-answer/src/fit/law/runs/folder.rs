@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use lptn_fit::law::Run;
-use lptn_netlist::{Diagnostic, Files, Record, RecordQuery, read_record, read_sheet};
+use lptn_netlist::{CsvOptions, Diagnostic, Files, Record, RecordQuery, read_record, read_sheet};
 use lptn_report::significant;
 use lptn_study::FileHash;
 use lptn_units::{Dimension, Type, parse_quantity};
@@ -33,7 +33,7 @@ struct Speeds {
     unit: Option<SpeedUnit>,
 }
 
-pub(super) fn read(folder: &Path) -> Result<Folder, Failure> {
+pub(super) fn read(folder: &Path, csv: &CsvOptions) -> Result<Folder, Failure> {
     let paths = records(folder)?;
     let mut found = Folder {
         runs: Vec::new(),
@@ -43,14 +43,18 @@ pub(super) fn read(folder: &Path) -> Result<Folder, Failure> {
     };
     let sheet = folder.join(RUNS);
     let speeds = if sheet.is_file() {
-        listed(&sheet, &paths, &mut found)?
+        listed((&sheet, csv), &paths, &mut found)?
     } else {
         Speeds { by_file: Vec::new(), unit: None }
     };
     for path in paths {
         let bytes = lptn_netlist::read_bytes(&path)?;
         found.inputs.push(hash(&path, &bytes));
-        let (record, files) = read_record(&path, &bytes, &RecordQuery::default())?;
+        let (record, files) = read_record(
+            &path,
+            &bytes,
+            &RecordQuery { csv: csv.clone(), ..RecordQuery::default() },
+        )?;
         let speed = speed(&path, (&record, &files), &speeds)?;
         let temperatures =
             record.temperatures().map(|column| (column.name.clone(), column.values.clone()));
@@ -91,10 +95,14 @@ fn records(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 }
 
 /// The speeds of `runs.csv`: a column of file names, and one of speeds.
-fn listed(path: &Path, records: &[PathBuf], found: &mut Folder) -> Result<Speeds, Failure> {
+fn listed(
+    (path, csv): (&Path, &CsvOptions),
+    records: &[PathBuf],
+    found: &mut Folder,
+) -> Result<Speeds, Failure> {
     let bytes = lptn_netlist::read_bytes(path)?;
     found.inputs.push(hash(path, &bytes));
-    let (sheet, files) = read_sheet(path, &bytes)?;
+    let (sheet, files) = read_sheet(path, &bytes, csv)?;
     found.warnings.extend(sheet.note.clone().map(|note| (files.clone(), vec![note])));
     let speed = Type::of(Dimension::ANGULAR_VELOCITY);
     let column = sheet.columns.iter().find(|column| column.unit.ty == speed);

@@ -6,7 +6,7 @@ use clap::Args as Arguments;
 
 use lptn_report::Format;
 
-use crate::options::{TEMPLATE, one_of};
+use crate::options::{CsvNumbers, TEMPLATE, one_of};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -68,6 +68,8 @@ pub(crate) struct LawArgs {
     pub(crate) records: RecordsArgs,
     #[command(flatten)]
     pub(crate) laws: StatedArgs,
+    #[command(flatten)]
+    pub(crate) csv: CsvNumbers,
 }
 
 /// A folder of records, one for each run.

@@ -39,7 +39,7 @@ fn stated(args: &LawArgs, console: &Console) -> Result<Exit, Failure> {
 }
 
 fn points(path: &Path, args: &LawArgs, console: &Console) -> Result<Exit, Failure> {
-    let answer = question(args).ask(path, console)?;
+    let answer = question(args)?.ask(path, console)?;
     console.page(&answer, args.format)?;
     if let Some(file) = &args.posterior {
         write_posterior(&answer, file, console)?;
@@ -49,7 +49,7 @@ fn points(path: &Path, args: &LawArgs, console: &Console) -> Result<Exit, Failur
 
 fn runs(path: &Path, args: &LawArgs, console: &Console) -> Result<Exit, Failure> {
     let begun = Instant::now();
-    let fit = question(args).begin(path)?;
+    let fit = question(args)?.begin(path)?;
     let place = (!args.no_files).then(|| Folder::prepare(target(path, args))).transpose()?;
     let found = fit.compute(console)?;
     let wall_time = begun.elapsed().as_secs_f64();
@@ -65,8 +65,8 @@ fn runs(path: &Path, args: &LawArgs, console: &Console) -> Result<Exit, Failure>
     Ok(conclude(&found.answer, args.format, console))
 }
 
-fn question(args: &LawArgs) -> FitLawQuestion {
-    FitLawQuestion {
+fn question(args: &LawArgs) -> Result<FitLawQuestion, Failure> {
+    Ok(FitLawQuestion {
         speed: args.speed.clone(),
         power: args.power.clone(),
         rise: args.rise.clone(),
@@ -79,8 +79,9 @@ fn question(args: &LawArgs) -> FitLawQuestion {
         columns: args.records.column.clone(),
         reference: Some(args.records.reference.clone()),
         sensor: args.records.sensor.clone(),
+        csv: args.csv.options()?,
         command: files::arguments(),
-    }
+    })
 }
 
 /// Folder for the results of a folder of records.
