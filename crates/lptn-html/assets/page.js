@@ -84,7 +84,7 @@ function upward(u, panel, places) {
   if (min <= from && max >= to) return panel.y.range;
   let low = Infinity, high = -Infinity;
   panel.curves.forEach((curve, k) => {
-    if (!u.series[k + 1].show) return;
+    if (!u.series[k + 1].show || curve.far) return;
     places[curve.x].forEach((at, i) => {
       if (at < min || at > max) return;
       for (const values of [curve.y, curve.low, curve.high]) {
@@ -216,8 +216,19 @@ function marks(u, panel, first) {
 
 const heightOf = panel => Math.max(150, HEIGHT * panel.share) + 40;
 
+// what is too far away to be shown, in words
+function tellBeyond(chart, panel) {
+  panel.beyond.forEach(text => {
+    const line = document.createElement("p");
+    line.className = "beyond";
+    line.textContent = text;
+    chart.root.append(line);
+  });
+  return chart;
+}
+
 function plot(panel, places, host, key, [width, first, last]) {
-  return new uPlot({
+  return tellBeyond(new uPlot({
     width: Math.max(200, host.clientWidth),
     height: heightOf(panel),
     series: series(panel),
@@ -234,7 +245,7 @@ function plot(panel, places, host, key, [width, first, last]) {
       setScale: [(u, key) => key == "x" && fit(u, panel, places)],
       setSeries: [(u, k) => k != null && u.status && fit(u, panel, places)],
     },
-  }, aligned(panel, places), host);
+  }, aligned(panel, places), host), panel);
 }
 
 const figures = [];

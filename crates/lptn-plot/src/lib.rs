@@ -19,6 +19,7 @@ pub mod svg;
 pub mod terminal;
 mod thin;
 mod ticks;
+mod views;
 
 pub use figure::Figure;
 pub use ink::{FIELD, Ink, Rgb, SERIES, Theme, contrast};
