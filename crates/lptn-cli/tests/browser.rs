@@ -146,6 +146,30 @@ fn zoom_and_legend_work() {
     }
 }
 
+/// Drawings are as wide as the page at most. Buttons and keys zoom by 1.4, move, and show all.
+#[test]
+fn drawings_fit_the_page_and_can_be_zoomed() {
+    let folder = fan();
+    for width in [600, 1200, 1920] {
+        let Some(found) = probed(&folder, "fan.html", width) else { return };
+        let drawings = found["drawings"].as_array().unwrap();
+        assert_eq!(drawings.len(), 2, "a circuit and its heat");
+        for drawing in drawings {
+            let view = |name: &str| -> Vec<f64> {
+                drawing[name].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+            };
+            let same = |a: &[f64], b: &[f64]| (a[2] - b[2]).abs() < 1e-9;
+            let (page, right) = (&drawing["page"], drawing["right"].as_f64().unwrap());
+            assert!(right <= page.as_f64().unwrap() + 1.0, "{right} of {page} at {width}");
+            let (before, nearer, moved) = (view("before"), view("nearer"), view("moved"));
+            assert!((before[2] / nearer[2] - 1.4).abs() < 1e-6, "{before:?} {nearer:?}");
+            assert!(moved[0] > nearer[0] && same(&moved, &nearer), "{nearer:?} {moved:?}");
+            assert_eq!((view("all"), view("again")), (before.clone(), before));
+            assert!(same(&view("key"), &nearer));
+        }
+    }
+}
+
 /// WCAG 2.1: 4.5 for text. Nothing reaches over the right edge, from a telephone to a wide screen.
 #[test]
 fn everything_can_be_read_in_both_themes_at_three_widths() {

@@ -26,4 +26,4 @@ pub use ink::{FIELD, Ink, Rgb, SERIES, Theme, contrast};
 pub use png::PngError;
 pub use scene::Scene;
 pub use thin::thinned;
-pub use ticks::printed;
+pub use ticks::{printed, round_marks};

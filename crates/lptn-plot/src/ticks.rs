@@ -71,6 +71,16 @@ fn marks((low, high): (f64, f64), step: f64) -> Vec<(f64, String)> {
     ticks
 }
 
+/// About `count` round values inside a range, with their texts.
+pub fn round_marks((low, high): (f64, f64), count: f64) -> Vec<(f64, String)> {
+    let is_range = high > low && (high - low).is_finite();
+    if is_range {
+        marks((low, high), round_step((high - low) / count.max(1.0)))
+    } else {
+        Vec::new()
+    }
+}
+
 /// Notation of the numbers of an axis, with enough digits to distinguish its marks.
 struct Notation {
     decimals: usize,

@@ -52,8 +52,11 @@ impl RunAnswer {
         if no_moments && events > 0 {
             notes.push(format!("{events} events, which are not marked"));
         }
-        if events > self.table.rows() && !self.solution.knows_jumps() {
+        let drawn = self.solution.knows_jumps();
+        if events > self.table.rows() && !drawn {
             notes.push("more happens between rows than they show: --every writes more".into());
+        } else if self.task.picture && !drawn {
+            notes.push("too many jumps and bends to draw: straight between rows".into());
         }
         notes.extend(limits::broken(&self.judgement(&self.limits())));
         notes.extend(self.ended_early());
