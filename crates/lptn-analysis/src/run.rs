@@ -3,8 +3,9 @@
 use lptn_assembly::ThermalSystem;
 use lptn_network::{End, Network, NodeId, OutputTimes, RunSettings, Time};
 use lptn_solve::{
-    ControlState, Periodic, PeriodicError, Proceed, Progress, RecordedNodes, RunStatus, Solution,
-    State, SteadyState, Summary, Transient, TransientError, Unsolved, Verification, Watch, Window,
+    ControlState, Periodic, PeriodicError, Proceed, Progress, RecordedNodes, RunStatus, Selection,
+    Solution, State, SteadyState, Summary, Transient, TransientError, Unsolved, Verification,
+    Watch, Window,
 };
 
 use crate::error::{CycleError, RunError};
@@ -88,7 +89,7 @@ impl RunAnalysis {
     pub fn bare(self) -> Self {
         let record = RecordedNodes::Nodes(Vec::new());
         let (watch, windows) = (Vec::new(), Vec::new());
-        let transient = Transient { record, watch, windows, balance: None, ..self.0 };
+        let transient = Transient { record, watch, windows, balance: None, jumps: None, ..self.0 };
         Self(Transient { hottest_only: false, ..transient })
     }
 
@@ -124,6 +125,12 @@ impl RunAnalysis {
     #[must_use]
     pub fn over(self, windows: Vec<Window>) -> Self {
         Self(Transient { windows, ..self.0 })
+    }
+
+    /// Reads these columns on both sides of jumps too, for pictures.
+    #[must_use]
+    pub fn drawing(self, of: Selection) -> Self {
+        Self(Transient { jumps: Some(of), ..self.0 })
     }
 
     /// Keeps the heat balance of a node or boundary.

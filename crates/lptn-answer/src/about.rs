@@ -1,6 +1,6 @@
 //! Parts of every report on a netlist: its network, its parameters, and its sources.
 
-use lptn_graph::{Grouping, View, diagram};
+use lptn_graph::{Diagram, Grouping, MOST_PLACES, View, diagram};
 use lptn_netlist::Netlist;
 use lptn_network::{Field, Item, Network, ParameterId};
 use lptn_report::{Claim, Piece, Report, Section, Text, TextTable, plain, significant};
@@ -38,8 +38,8 @@ pub struct Known<'a> {
 pub fn about(input: &Input, known: Known<'_>) -> Report {
     let unit = known.unit.unwrap_or(&input.netlist.temperature_unit);
     let states =
-        known.states.iter().map(|(title, state)| drawing(input, (title, unit), Some(state)));
-    let mut sections: Vec<Section> = states.flatten().collect();
+        known.states.iter().flat_map(|(title, state)| drawing(input, (title, unit), Some(state)));
+    let mut sections: Vec<Section> = states.collect();
     if sections.is_empty() {
         sections.extend(drawing(input, ("Network", unit), None));
     }
@@ -133,23 +133,35 @@ fn is_deep(value: &Value) -> bool {
     value.as_object().is_some_and(|members| !members.is_empty())
 }
 
-/// The network as a drawing, with temperatures and heat flows of an instant on it.
-fn drawing(
-    input: &Input,
-    (title, unit): (&str, &Unit),
-    state: Option<&Snapshot>,
-) -> Option<Section> {
-    let view = View { title: "", grouping: Grouping::Auto, unit, state };
-    let diagram = diagram(&input.netlist.network, &view);
+/// The network as a drawing, with temperatures and heat flows of an instant on it. If instances are
+/// one box, every node follows in a folded section.
+fn drawing(input: &Input, (title, unit): (&str, &Unit), state: Option<&Snapshot>) -> Vec<Section> {
+    let drawn = |grouping: Grouping| {
+        let view = View { title: "", grouping, unit, state };
+        diagram(&input.netlist.network, &view)
+    };
+    let diagram = drawn(Grouping::Auto);
+    let mut sections = vec![section(title.to_owned(), &diagram, state)];
+    let network = &input.netlist.network;
+    let few = network.nodes().len() + network.boundaries().len() <= MOST_PLACES;
+    if few && !diagram.grouped.is_empty() {
+        sections
+            .push(section(format!("{title}, every node"), &drawn(Grouping::No), state).folded());
+    }
+    sections.retain(|section| !section.pieces.is_empty());
+    sections
+}
+
+/// A diagram as a circuit and, in a state, as bands.
+fn section(title: String, diagram: &Diagram, state: Option<&Snapshot>) -> Section {
     let mut pieces = Vec::new();
-    if let Ok(scene) = lptn_graph::scene(&diagram) {
+    if let Ok(scene) = lptn_graph::scene(diagram) {
         pieces.push(Piece::Drawing(scene, diagram.grouped.join("; ")));
     }
-    if let Some(Ok(scene)) = state.map(|_| lptn_graph::sankey(&diagram)) {
+    if let Some(Ok(scene)) = state.map(|_| lptn_graph::sankey(diagram)) {
         pieces.push(Piece::Drawing(scene, String::new()));
     }
-    let shown = !pieces.is_empty();
-    shown.then(|| Section { title: title.to_owned(), pieces, folded: false })
+    Section { title, pieces, folded: false }
 }
 
 fn parameters(input: &Input, sensitivities: Option<&Sensitivities>) -> Option<Section> {

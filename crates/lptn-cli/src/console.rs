@@ -8,7 +8,7 @@ use std::sync::{Mutex, PoisonError};
 use lptn_answer::answer::Answer;
 use lptn_netlist::{Diagnostic, Files};
 use lptn_plot::Figure;
-use lptn_report::{Format, Look, Page, Report};
+use lptn_report::{Canvas, Format, Look, Page, Report};
 
 use crate::diagnostics::render;
 use crate::drawing::{self, Drawing};
@@ -138,8 +138,18 @@ impl Console {
 
     /// Draws figures into a file or on the terminal.
     pub(crate) fn draw(&self, figures: &[Figure], drawing: &Drawing) -> Result<(), Failure> {
-        let wrote = drawing
-            .draw(figures, self.styled_results, |bytes| self.write(|out| out.write_all(bytes)))?;
+        self.draw_on(&Canvas::default(), figures, drawing)
+    }
+
+    /// The same with a size and colours.
+    pub(crate) fn draw_on(
+        &self,
+        canvas: &Canvas,
+        figures: &[Figure],
+        drawing: &Drawing,
+    ) -> Result<(), Failure> {
+        let show = |bytes: &[u8]| self.write(|out| out.write_all(bytes));
+        let wrote = drawing.draw((figures, canvas), self.styled_results, show)?;
         self.drawn.store(true, Ordering::Relaxed);
         wrote.iter().for_each(|file| self.note(&format!("wrote  {file}")));
         Ok(())

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use lptn_plot::Figure;
-use lptn_report::{Picture, WIDTH};
+use lptn_report::{Canvas, Picture, WIDTH};
 
 use crate::files;
 use lptn_answer::failure::Failure;
@@ -34,7 +34,7 @@ impl Drawing {
     /// Draws figures, and gives the file that was written.
     pub(crate) fn draw(
         &self,
-        figures: &[Figure],
+        (figures, canvas): (&[Figure], &Canvas),
         styled: bool,
         show: impl FnOnce(&[u8]) -> Result<(), Failure>,
     ) -> Result<Option<String>, Failure> {
@@ -46,7 +46,7 @@ impl Drawing {
             Self::File(file, picture) => (*picture, Some(file)),
         };
         let bytes = picture
-            .draw(figures, (terminal_width(), styled))
+            .draw_on(canvas, figures, (terminal_width(), styled))
             .map_err(|error| Failure::of(&error))?;
         let Some(file) = file else { return show(&bytes).map(|()| None) };
         let help = "name another file for the picture";

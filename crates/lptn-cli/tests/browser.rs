@@ -88,26 +88,40 @@ fn a_page_opens_from_disk_without_a_word() {
     assert!(page.contains("data-ready=\"1\"") && page.contains("<canvas"), "the charts are there");
 }
 
-/// Every number of every chart is that of a column of `result.csv`, to the last digit.
+/// Every number of every chart at the time of a row is that of a column of `result.csv`, to the
+/// last digit. All other numbers are at a switch, two times the smallest step apart, or 30 s after
+/// it, when the fan may switch again.
 #[test]
 fn what_is_drawn_is_what_the_rows_say() {
     let folder = fan();
     let Some(found) = probed(&folder, "fan.html", 1000) else { return };
-    let rows = folder.read("out/fan/result.csv");
-    let rows: Vec<Vec<f64>> = rows
-        .lines()
-        .skip(1)
-        .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
-        .collect();
+    let numbers = |name: &str| -> Vec<Vec<f64>> {
+        let text = folder.read(name);
+        let cells = |line: &str| line.split(',').filter_map(|cell| cell.parse().ok()).collect();
+        text.lines().skip(1).map(cells).collect()
+    };
+    let (rows, events) = (numbers("out/fan/result.csv"), numbers("out/fan/events.csv"));
     let columns: Vec<Vec<f64>> =
         (0..rows[0].len()).map(|c| rows.iter().map(|row| row[c]).collect()).collect();
     let charts = found["charts"].as_array().unwrap();
     assert_eq!(charts.len(), 3);
     for chart in charts {
-        for column in chart["data"].as_array().unwrap() {
-            let values = column.as_array().unwrap().iter();
-            let values: Vec<f64> = values.map(|v| v.as_f64().unwrap()).collect();
-            assert!(columns.contains(&values), "{:?} .. is no column", &values[..3]);
+        let data = chart["data"].as_array().unwrap().iter().map(|column| {
+            column.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect::<Vec<f64>>()
+        });
+        let data: Vec<Vec<f64>> = data.collect();
+        let is_row = |time: &f64| columns[0].contains(time);
+        for column in &data {
+            let at_rows = data[0].iter().zip(column).filter(|(time, _)| is_row(time));
+            let values: Vec<f64> = at_rows.map(|(_, value)| *value).collect();
+            assert!(columns.contains(&values), "{:?} .. is not a column", &values[..3]);
+        }
+        let between: Vec<f64> = data[0].iter().copied().filter(|time| !is_row(time)).collect();
+        assert!(!between.is_empty(), "the fan switches between rows");
+        for time in between {
+            let near = |event: f64| (event - time).abs() < 1e-9;
+            let at = |event: &Vec<f64>| near(event[0]) || near(event[0] + 30.0);
+            assert!(events.iter().any(at), "{time} s is neither a row nor an event");
         }
     }
 }
@@ -120,12 +134,39 @@ fn zoom_and_legend_work() {
         let range = |name: &str| -> Vec<f64> {
             chart[name].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
         };
-        let (before, zoomed) = (range("before"), range("zoomed"));
-        assert_eq!((zoomed[0], zoomed[1]), (3600.0, 7200.0));
+        let (before, zoomed, times) =
+            (range("before"), range("zoomed"), chart["data"][0].as_array());
+        let times = times.unwrap();
+        let middle = times[times.len() / 2].as_f64().unwrap();
+        assert_eq!((zoomed[0], zoomed[1]), (middle, 7200.0));
         assert!(zoomed[2] >= before[2] && zoomed[3] <= before[3], "{before:?} {zoomed:?}");
         assert_eq!(range("again"), before);
         let shown = |name: &str| chart[name].as_array().unwrap().last().unwrap().as_bool().unwrap();
         assert!(!shown("hidden") && shown("shown"));
+    }
+}
+
+/// Drawings are as wide as the page at most. Buttons and keys zoom by 1.4, move, and show all.
+#[test]
+fn drawings_fit_the_page_and_can_be_zoomed() {
+    let folder = fan();
+    for width in [600, 1200, 1920] {
+        let Some(found) = probed(&folder, "fan.html", width) else { return };
+        let drawings = found["drawings"].as_array().unwrap();
+        assert_eq!(drawings.len(), 2, "a circuit and its heat");
+        for drawing in drawings {
+            let view = |name: &str| -> Vec<f64> {
+                drawing[name].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+            };
+            let same = |a: &[f64], b: &[f64]| (a[2] - b[2]).abs() < 1e-9;
+            let (page, right) = (&drawing["page"], drawing["right"].as_f64().unwrap());
+            assert!(right <= page.as_f64().unwrap() + 1.0, "{right} of {page} at {width}");
+            let (before, nearer, moved) = (view("before"), view("nearer"), view("moved"));
+            assert!((before[2] / nearer[2] - 1.4).abs() < 1e-6, "{before:?} {nearer:?}");
+            assert!(moved[0] > nearer[0] && same(&moved, &nearer), "{nearer:?} {moved:?}");
+            assert_eq!((view("all"), view("again")), (before.clone(), before));
+            assert!(same(&view("key"), &nearer));
+        }
     }
 }
 

@@ -62,6 +62,8 @@ mod periodic;
 mod picture;
 mod plan;
 mod plot;
+mod plot_truth;
+mod plot_views;
 mod printed;
 mod processors;
 #[path = "../../../tests/support/prose.rs"]

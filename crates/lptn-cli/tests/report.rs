@@ -265,3 +265,21 @@ fn regression_a_constant_stream_is_linear() {
         assert_eq!((said, page.contains("not linear:")), (linear, !linear), "{new}");
     }
 }
+
+/// Six instances are one box; every node is in a section that opens.
+#[test]
+fn many_instances_are_one_box_that_opens() {
+    let mut text = "format = 1\n[default]\nT0 = '20 degC'\n[template.c.node]\nbody = { C = '10 J/K' }\n\
+                    [use]\ncell = { template = 'c', count = 6 }\n[boundary]\nair = { T = '20 degC' }\n\
+                    [source]\nheat = { into = 'cell[1].body', P = '1 W' }\n[resistor]\n"
+        .to_owned();
+    for i in 1..=6 {
+        text += &format!("r{i} = {{ from = 'cell[{i}].body', to = 'air', R = '1 K/W' }}\n");
+    }
+    let folder = Folder::with("cells.toml", &text);
+    folder.run(&["steady", "cells.toml", "--report=cells.html"]).exits(0);
+    let page = folder.read("cells.html");
+    let (whole, every) = page.split_once("every node</summary>").unwrap();
+    assert!(whole.contains(">cell[*]<") && whole.contains(">\u{d7} 6<"), "one box");
+    assert!(!whole.contains(">cell[3].body</text>") && every.contains(">cell[3].body</text>"));
+}

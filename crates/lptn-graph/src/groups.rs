@@ -1,8 +1,9 @@
 //! Grouping of nodes and boundaries into boxes.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use lptn_network::{BoundaryId, Item, Network, NodeId};
+use lptn_report::MORE_MEMBERS;
 
 /// More places than this are grouped by default.
 pub const MOST_PLACES: usize = 150;
@@ -13,7 +14,7 @@ const READABLE: usize = 40;
 /// Grouping of many nodes into boxes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Grouping {
-    /// If there are more than [`MOST_PLACES`].
+    /// Instances of a large family as one; more if there are more than [`MOST_PLACES`].
     Auto,
     /// Always.
     Yes,
@@ -36,6 +37,8 @@ pub(crate) struct Group {
 enum Level {
     /// Every node is a separate box.
     Alone,
+    /// All instances of a family of many are one box.
+    Repeated,
     /// Each grid and each instance of a template is one box.
     Instances,
     /// All instances of a template, and all members of a family, are one box.
@@ -53,7 +56,8 @@ pub(crate) fn groups(network: &Network, grouping: Grouping) -> Vec<Group> {
         Grouping::No => true,
     };
     if alone {
-        return at_level(network, Level::Alone);
+        let level = if grouping == Grouping::No { Level::Alone } else { Level::Repeated };
+        return at_level(network, level);
     }
     let mut found = at_level(network, Level::Instances);
     for level in [Level::Families, Level::Numbers] {
@@ -67,8 +71,13 @@ pub(crate) fn groups(network: &Network, grouping: Grouping) -> Vec<Group> {
 fn at_level(network: &Network, level: Level) -> Vec<Group> {
     let mut places: BTreeMap<(bool, String), usize> = BTreeMap::new();
     let mut groups: Vec<Group> = Vec::new();
+    let many = many(network);
     let mut join = |boundary: bool, name: &str, label: String| {
-        let key = if level == Level::Alone { name.to_owned() } else { label };
+        let key = match level {
+            Level::Alone => name.to_owned(),
+            Level::Repeated if !many.contains(&label) => name.to_owned(),
+            _ => label,
+        };
         let place = *places.entry((boundary, key.clone())).or_insert(groups.len());
         if place == groups.len() {
             groups.push(Group { name: key, ..Group::default() });
@@ -86,7 +95,8 @@ fn at_level(network: &Network, level: Level) -> Vec<Group> {
     }
     for id in network.boundary_ids() {
         let name = &network.boundaries()[id.index()].name;
-        let label = if level >= Level::Families { label(name, level) } else { name.clone() };
+        let joins = level == Level::Repeated || level >= Level::Families;
+        let label = if joins { label(name, level) } else { name.clone() };
         members.push((join(true, name, label), Item::Boundary(id)));
     }
     for (place, member) in members {
@@ -100,9 +110,27 @@ fn at_level(network: &Network, level: Level) -> Vec<Group> {
     groups
 }
 
+/// The families of which a large number of instances has nodes or boundaries.
+fn many(network: &Network) -> BTreeSet<String> {
+    let nodes = network.thermal_nodes().filter(|id| network.whole(Item::Node(*id)).is_none());
+    let nodes = nodes.map(|id| network.nodes()[id.index()].name.as_str());
+    let boundaries = network.boundaries().iter().map(|boundary| boundary.name.as_str());
+    let mut instances: BTreeMap<String, BTreeSet<&str>> = BTreeMap::new();
+    for name in nodes.chain(boundaries).filter(|name| head(name).contains('[')) {
+        instances.entry(label(name, Level::Families)).or_default().insert(head(name));
+    }
+    let large = instances.into_iter().filter(|(_, all)| all.len() >= MORE_MEMBERS);
+    large.map(|(family, _)| family).collect()
+}
+
+/// The instance that a name belongs to: `row[3]` of `row[3].base`.
+fn head(name: &str) -> &str {
+    name.split('.').next().unwrap_or(name)
+}
+
 /// The name of the box of a node or boundary at a level.
 fn label(name: &str, level: Level) -> String {
-    let head = name.split('.').next().unwrap_or(name);
+    let head = head(name);
     let family = || match head.split_once('[') {
         Some((family, _)) => format!("{family}[*]"),
         None => head.to_owned(),
@@ -111,7 +139,7 @@ fn label(name: &str, level: Level) -> String {
         Level::Alone => name.to_owned(),
         // a member of a family that is not an instance is a separate box
         Level::Instances => head.to_owned(),
-        Level::Families => family(),
+        Level::Families | Level::Repeated => family(),
         Level::Numbers => {
             let family = family();
             let stem = family.trim_end_matches(|c: char| c.is_ascii_digit());
@@ -139,10 +167,26 @@ fn finish(network: &Network, group: &mut Group) {
                         of.cells.iter().take(of.axes).map(ToString::to_string).collect();
                     format!("{} cells", cells.join(" × "))
                 }
-                _ => format!("{} nodes", nodes.len()),
+                _ => instances(network, nodes),
             });
         }
         (_, boundaries) => group.words = Some(format!("{} boundaries", boundaries.len())),
+    }
+}
+
+/// "24 nodes"; if several instances have as many each, "\u{d7} 24, 2 nodes each".
+fn instances(network: &Network, nodes: &[NodeId]) -> String {
+    let mut sizes: BTreeMap<&str, usize> = BTreeMap::new();
+    for id in nodes {
+        *sizes.entry(head(&network.nodes()[id.index()].name)).or_default() += 1;
+    }
+    let count = sizes.len();
+    let each = nodes.len() / count.max(1);
+    let same = sizes.iter().all(|(name, size)| name.contains('[') && *size == each);
+    match (same && count > 1, each) {
+        (true, 1) => format!("\u{d7} {count}"),
+        (true, each) => format!("\u{d7} {count}, {each} nodes each"),
+        _ => format!("{} nodes", nodes.len()),
     }
 }
 

@@ -1,10 +1,11 @@
 //! The legend below a diagram: the scale of its temperatures, its controls.
 
 use lptn_plot::font::width;
-use lptn_plot::scene::{Align, Stroke, Text, rectangle};
+use lptn_plot::scene::{Align, Stroke, Text, line, rectangle};
 use lptn_plot::{FIELD, Ink, Scene};
 
-use crate::model::{Diagram, Scales, Target};
+use crate::model::{Diagram, Target};
+use crate::symbols;
 
 /// Room that a legend takes.
 #[derive(Clone, Copy, Debug, Default)]
@@ -29,15 +30,15 @@ pub(crate) const GAP: f64 = 22.0;
 pub(crate) fn legend(diagram: &Diagram) -> Size {
     let lines = lines(diagram);
     let widest = lines.iter().map(|text| width(text, SIZE, false)).fold(0.0, f64::max);
-    let scale = diagram.scales.as_ref().map_or(Size::default(), scale_size);
+    let scale = diagram.scales.as_ref().map_or(Size::default(), |s| scale_size(&s.caption));
     let gap = if scale.height == 0.0 && !lines.is_empty() { GAP } else { 0.0 };
     let height = gap + scale.height + LINE * lines.len() as f64;
     Size { width: widest.max(scale.width), height }
 }
 
 /// The room for a scale and its caption below a drawing.
-pub(crate) fn scale_size(scales: &Scales) -> Size {
-    Size { width: width(&scales.caption, SIZE, false).max(BAR.0), height: GAP + SCALE }
+pub(crate) fn scale_size(caption: &str) -> Size {
+    Size { width: width(caption, SIZE, false).max(BAR.0), height: GAP + SCALE }
 }
 
 /// A line for each control, with the names of the paths and sources that it switches.
@@ -63,7 +64,7 @@ fn lines(diagram: &Diagram) -> Vec<String> {
 pub(crate) fn draw(scene: &mut Scene, diagram: &Diagram, (x, y): (f64, f64)) {
     let mut y = y + GAP;
     if let Some(scales) = &diagram.scales {
-        scale(scene, &scales.ends, &scales.caption, (x, y));
+        scale(scene, (&scales.ends, &scales.ticks), &scales.caption, (x, y));
         y += SCALE;
     }
     for text in lines(diagram) {
@@ -72,8 +73,19 @@ pub(crate) fn draw(scene: &mut Scene, diagram: &Diagram, (x, y): (f64, f64)) {
     }
 }
 
-/// A bar of colours with the temperatures at its ends, and a line of text below.
-pub(crate) fn scale(scene: &mut Scene, ends: &[String; 2], caption: &str, (x, y): (f64, f64)) {
+/// Room between two texts of a scale, in pixels.
+const BESIDE: f64 = 10.0;
+
+/// A mark of a scale: its share of the way from the coldest to the hottest, and its number.
+pub(crate) type Tick = (f64, String);
+
+/// A bar of colours with the temperatures at its ends and marks, and a line of text below.
+pub(crate) fn scale(
+    scene: &mut Scene,
+    (ends, ticks): (&[String; 2], &[Tick]),
+    caption: &str,
+    (x, y): (f64, f64),
+) {
     let step = BAR.0 / FIELD as f64;
     for i in 0..FIELD {
         // a little wider, so that no paper shows between them
@@ -85,6 +97,19 @@ pub(crate) fn scale(scene: &mut Scene, ends: &[String; 2], caption: &str, (x, y)
     for (text, at, align) in [(&ends[0], x, Align::Start), (&ends[1], x + BAR.0, Align::End)] {
         let text = Text::new(text.clone(), (at, y + BAR.1 + LINE - 3.0), SIZE, Ink::Text);
         scene.write(text.aligned(align));
+    }
+    let wide = |text: &str| width(text, SIZE, false) + BESIDE;
+    let (mut free, end) = (x + wide(&ends[0]), x + BAR.0 - wide(&ends[1]));
+    for (share, text) in ticks {
+        let at = x + share * BAR.0;
+        let half = wide(text) / 2.0;
+        if at - half < free || at + half > end {
+            continue;
+        }
+        free = at + half;
+        scene.put(line([(at, y + BAR.1), (at, y + BAR.1 + 3.0)]).stroked(symbols::pen()));
+        let text = Text::new(text, (at, y + BAR.1 + LINE - 3.0), SIZE, Ink::Faint);
+        scene.write(text.aligned(Align::Middle));
     }
     let below = (x, y + BAR.1 + 2.0 * LINE - 1.0);
     scene.write(Text::new(caption, below, SIZE, Ink::Faint));

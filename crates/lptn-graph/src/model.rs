@@ -1,6 +1,9 @@
 //! A network as it is drawn: places, paths between places, and their labels.
 
 use lptn_network::ConductorKind;
+use lptn_units::Unit;
+
+use crate::words::Scale;
 
 /// A network as it is drawn.
 #[derive(Clone, Debug)]
@@ -85,6 +88,9 @@ pub struct Link {
     pub stream: bool,
     /// Its heat in the state that is shown in W, positive from `from` to `to`.
     pub heat: Option<f64>,
+    /// Of a stream whose capacity rate is known, in the state that is shown: the rate in W/K, and
+    /// its product with the temperature in K of the places that the fluid leaves.
+    pub carries: Option<(f64, f64)>,
     /// For several streams that run both ways, the heat in W that `from` receives from those that
     /// run against the others.
     pub against: f64,
@@ -132,6 +138,11 @@ pub struct Scales {
     pub span: [f64; 2],
     /// The same in words.
     pub ends: [String; 2],
+    /// Round temperatures: their share of the way from the coldest to the hottest, and their
+    /// numbers.
+    pub ticks: Vec<(f64, String)>,
+    /// The unit of temperatures.
+    pub unit: Unit,
     /// "Steady state", with the time of its inputs if they change; else the time of the state.
     pub caption: String,
     /// The largest heat flow in W; not negative.
@@ -147,6 +158,11 @@ impl Scales {
     pub fn heat(&self, watts: f64) -> String {
         let (scale, unit) = &self.heat_unit;
         format!("{} {unit}", lptn_report::fixed(watts.abs() / scale, self.decimals))
+    }
+
+    /// A temperature in K in words: `92.7 °C`.
+    pub fn temperature(&self, kelvin: f64) -> String {
+        Scale::new(&self.unit, self.span[1] - self.span[0]).text(kelvin)
     }
 
     /// The heat that a place stores or releases, in words: `stores 12.1 W`.

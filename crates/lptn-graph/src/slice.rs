@@ -43,7 +43,7 @@ pub fn slice(field: &GridField, cut: Cut, title: &str, unit: &Unit) -> Scene {
     let below = corner.1 + sheet.size.1 + AXIS.1 + 14.0;
     let caption = format!("{}; {}", field.caption, sheet.hottest(&words));
     let ends = span.map(|kelvin| words.text(kelvin));
-    scale(&mut scene, &ends, &caption, (corner.0, below));
+    scale(&mut scene, (&ends, &words.ticks(span)), &caption, (corner.0, below));
     scene
 }
 

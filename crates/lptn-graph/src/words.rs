@@ -5,6 +5,9 @@ use lptn_report::{decimals, fixed, prefix, significant};
 use lptn_solve::Snapshot;
 use lptn_units::Unit;
 
+/// Marks of a scale of colours.
+const TICKS: f64 = 8.0;
+
 /// Digits of values.
 const DIGITS: usize = 4;
 
@@ -110,6 +113,13 @@ impl<'a> Scale<'a> {
     /// For temperatures that lie `span` kelvins apart.
     pub(crate) fn new(unit: &'a Unit, span: f64) -> Self {
         Self { unit, decimals: decimals(span / unit.scale, 3, 1).min(4) }
+    }
+
+    /// Round temperatures between two in K: their share of the way, and their numbers.
+    pub(crate) fn ticks(&self, span: [f64; 2]) -> Vec<(f64, String)> {
+        let [low, high] = span.map(|kelvin| self.unit.from_si(kelvin));
+        let marks = lptn_plot::round_marks((low, high), TICKS);
+        marks.into_iter().map(|(value, text)| ((value - low) / (high - low), text)).collect()
     }
 
     /// The unit as it is printed in pictures.

@@ -115,11 +115,11 @@ fn what_stays_is_stored_and_what_is_missing_is_released() {
 }
 
 /// 2 W/K flow from an inlet of 60 degC through `pot` to a drain of 20 degC; `skin` takes 0.5 K/W to
-/// the air of 20 degC: `pot` is at 40 degC. The fluid brings it 40 W, and brings 40 W to the drain.
-/// `chill` flows at 1 W/K from a boundary of 10 degC into a second pot, which 15 W keep at 25 degC:
-/// it carries them away.
+/// the air of 20 degC: `pot` is at 40 degC. Above the 20 degC of the drain the fluid brings 80 W from
+/// the inlet, of which 40 W go on. `chill` flows at 1 W/K from a boundary of 10 degC into a second
+/// pot, which 15 W keep at 25 degC, and ends there: it carries them away.
 #[test]
-fn a_stream_brings_and_carries_away() {
+fn a_stream_joins_its_source_and_its_sink() {
     let netlist = read(
         r#"
 format = 1
@@ -149,11 +149,87 @@ skin = { from = "pot", to = "air", R = "0.5 K/W" }
         &[
             ("heater", "heater", "second", 15.0),
             ("skin", "pot", "air", 40.0),
-            ("feed", "feed", "pot", 40.0),
-            ("waste", "waste", "drain", 40.0),
+            ("feed", "inlet", "pot", 80.0),
+            ("waste", "pot", "drain", 40.0),
             ("chill", "second", "chill", 15.0),
         ],
     );
+}
+
+/// Water of 30 degC takes 971 W from a jacket and brings them to its chiller: one chain, no island.
+/// 971 W at 500 W/K are 1.942 K.
+const LOOP: &str = r#"
+format = 1
+[node]
+jacket = { C = "100 J/K", T0 = "30 degC" }
+[boundary]
+chiller = { T = "30 degC" }
+[source]
+losses = { into = "jacket", P = "971 W" }
+[advection]
+feed = { from = "chiller", to = "jacket", mcp = "500 W/K" }
+back = { from = "jacket", to = "chiller", mcp = "500 W/K" }
+"#;
+
+#[test]
+fn a_coolant_is_not_an_island() {
+    let netlist = read(LOOP);
+    let state = steady(&netlist).unwrap();
+    let of = drawn(&netlist, Some(&state), Grouping::No);
+    let expected = [("losses", "losses", "jacket", 971.0), ("back", "jacket", "chiller", 971.0)];
+    same(&HeatFlows::of(&of), &expected);
+    let scene = sankey(&of).unwrap();
+    let said =
+        |shape: &Shape| matches!(shape, Shape::Text(text) if text.text.contains("above 30.0"));
+    assert!(scene.shapes.iter().any(said), "the reference is said");
+}
+
+/// Six cells in series on 10 W/K, each heated by 5 W: the fluid carries 5, 10 .. 30 W, and the six
+/// instances of the template are one box.
+#[test]
+fn a_row_of_cells_is_one_box_that_its_coolant_passes() {
+    let mut text = "format = 1\n[default]\nT0 = \"20 degC\"\n[template.c.node]\nbody = { C = \"10 J/K\" }\n\
+                    [use]\ncell = { template = \"c\", count = 6 }\n[boundary]\nsupply = { T = \"20 degC\" }\n\
+                    drain = { T = \"20 degC\" }\n[source]\n"
+        .to_owned();
+    (1..=6).for_each(|i| text += &format!("s{i} = {{ into = \"cell[{i}].body\", P = \"5 W\" }}\n"));
+    text += "[advection]\nin = { from = \"supply\", to = \"cell[1].body\", mcp = \"10 W/K\" }\n";
+    for i in 1..6 {
+        let (from, to) = (i, i + 1);
+        text += &format!(
+            "f{i} = {{ from = \"cell[{from}].body\", to = \"cell[{to}].body\", mcp = \"10 W/K\" }}\n"
+        );
+    }
+    text += "out = { from = \"cell[6].body\", to = \"drain\", mcp = \"10 W/K\" }\n";
+    let netlist = read(&text);
+    let state = steady(&netlist).unwrap();
+    let every = HeatFlows::of(&drawn(&netlist, Some(&state), Grouping::No));
+    let carried: Vec<f64> = bands(&every).iter().skip(6).map(|band| band.3).collect();
+    for (found, expected) in carried.iter().zip([5.0, 10.0, 15.0, 20.0, 25.0, 30.0]) {
+        assert!((found - expected).abs() < 1e-9, "{carried:?}");
+    }
+    assert_eq!(carried.len(), 6, "no fluid is left over: {:?}", bands(&every));
+    let of = drawn(&netlist, Some(&state), Grouping::Auto);
+    assert_eq!(of.grouped, ["cell[*]: \u{d7} 6"]);
+    let flows = HeatFlows::of(&of);
+    let last = bands(&flows).into_iter().last().unwrap();
+    assert_eq!((last.0, last.1, last.2), ("out", "cell[*]", "drain"));
+    assert!((last.3 - 30.0).abs() < 1e-9, "{last:?}");
+    balanced(&flows);
+}
+
+/// A body at 300 K that radiates into space at 2.7 K: the scale is that of the bodies.
+#[test]
+fn empty_space_does_not_set_the_scale_of_colours() {
+    let text = PAIR.replace("[source]", "space = { T = \"2.7 K\" }\n[source]");
+    let text =
+        text.replace("[run]", "far = { from = \"hot\", to = \"space\", R = \"1e6 K/W\" }\n[run]");
+    let netlist = read(&text);
+    let state = steady(&netlist).unwrap();
+    let scales = drawn(&netlist, Some(&state), Grouping::No).scales.unwrap();
+    assert!((scales.span[0] - 293.15).abs() < 1e-9, "air is the coldest: {:?}", scales.span);
+    assert!(scales.caption.contains("; space, "), "{}", scales.caption);
+    assert!(scales.caption.ends_with("is below the scale"), "{}", scales.caption);
 }
 
 /// 9 W leave an instance for `middle`, where 1 W is taken out; 8 W come back to its colder node and

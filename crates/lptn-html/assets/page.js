@@ -84,7 +84,7 @@ function upward(u, panel, places) {
   if (min <= from && max >= to) return panel.y.range;
   let low = Infinity, high = -Infinity;
   panel.curves.forEach((curve, k) => {
-    if (!u.series[k + 1].show) return;
+    if (!u.series[k + 1].show || curve.far) return;
     places[curve.x].forEach((at, i) => {
       if (at < min || at > max) return;
       for (const values of [curve.y, curve.low, curve.high]) {
@@ -216,8 +216,19 @@ function marks(u, panel, first) {
 
 const heightOf = panel => Math.max(150, HEIGHT * panel.share) + 40;
 
+// what is too far away to be shown, in words
+function tellBeyond(chart, panel) {
+  panel.beyond.forEach(text => {
+    const line = document.createElement("p");
+    line.className = "beyond";
+    line.textContent = text;
+    chart.root.append(line);
+  });
+  return chart;
+}
+
 function plot(panel, places, host, key, [width, first, last]) {
-  return new uPlot({
+  return tellBeyond(new uPlot({
     width: Math.max(200, host.clientWidth),
     height: heightOf(panel),
     series: series(panel),
@@ -234,7 +245,7 @@ function plot(panel, places, host, key, [width, first, last]) {
       setScale: [(u, key) => key == "x" && fit(u, panel, places)],
       setSeries: [(u, k) => k != null && u.status && fit(u, panel, places)],
     },
-  }, aligned(panel, places), host);
+  }, aligned(panel, places), host), panel);
 }
 
 const figures = [];
@@ -263,6 +274,93 @@ function enliven(element, index) {
   figures.push(figure);
 }
 
+const SIGNS = [["+", "zoom in", 1 / 1.4], ["\u2212", "zoom out", 1.4], ["all", "show all", 0]];
+const KEYS = { "+": 1 / 1.4, "=": 1 / 1.4, "-": 1.4, "0": 0 };
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+const between = (low, value, high) => Math.max(low, Math.min(high, value));
+
+const drawings = [];
+
+// a drawing as wide as the page, which can be moved and zoomed into
+function fitted(figure) {
+  const svg = figure.querySelector("svg"), frame = svg.parentElement;
+  const { width, height } = svg.viewBox.baseVal;
+  const drawing = { svg, frame, width, height, x: 0, y: 0, share: 1 };
+  const show = () => {
+    const { x, y, share } = drawing;
+    svg.setAttribute("viewBox", [x, y, width * share, height * share].join(" "));
+    frame.classList.toggle("inside", share < 1);
+  };
+  const move = (dx, dy) => {
+    drawing.x = between(0, drawing.x + dx, width * (1 - drawing.share));
+    drawing.y = between(0, drawing.y + dy, height * (1 - drawing.share));
+    show();
+  };
+  // a factor of 0 shows all; the point, in shares of the frame, keeps its place
+  drawing.zoom = (factor, [right, down] = [0.5, 0.5]) => {
+    const share = factor ? between(1 / 40, drawing.share * factor, 1) : 1;
+    const lost = drawing.share - share;
+    drawing.share = share;
+    move(right * lost * width, down * lost * height);
+  };
+  const size = () => {
+    const scale = Math.min(1, frame.clientWidth / width) || 1;
+    svg.style.width = width * scale + "px";
+    svg.style.height = height * scale + "px";
+  };
+  const at = event => {
+    const box = svg.getBoundingClientRect();
+    return [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
+  };
+  let held = null;
+  svg.addEventListener("pointerdown", event => {
+    if (drawing.share == 1) return;
+    held = at(event);
+    svg.setPointerCapture(event.pointerId);
+  });
+  svg.addEventListener("pointermove", event => {
+    if (!held) return;
+    const now = at(event);
+    move((held[0] - now[0]) * width * drawing.share, (held[1] - now[1]) * height * drawing.share);
+    held = now;
+  });
+  for (const end of ["pointerup", "pointercancel"]) svg.addEventListener(end, () => { held = null; });
+  svg.addEventListener("dblclick", event => drawing.zoom(drawing.share < 1 ? 0 : 0.5, at(event)));
+  svg.addEventListener("wheel", event => {
+    if (!event.ctrlKey && !event.metaKey) return;
+    event.preventDefault();
+    drawing.zoom(event.deltaY > 0 ? 1.2 : 1 / 1.2, at(event));
+  }, { passive: false });
+  frame.tabIndex = 0;
+  frame.addEventListener("keydown", event => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const step = ARROWS[event.key], factor = KEYS[event.key];
+    if (factor != null) drawing.zoom(factor);
+    else if (step && drawing.share < 1) move(...step.map(s => 0.1 * s * width * drawing.share));
+    else return;
+    event.preventDefault();
+  });
+  const tools = document.createElement("p");
+  tools.className = "tools";
+  SIGNS.forEach(([text, label, factor]) => {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.textContent = text;
+    button.setAttribute("aria-label", label);
+    button.addEventListener("click", () => drawing.zoom(factor));
+    tools.append(button);
+  });
+  const hint = document.createElement("span");
+  hint.className = "hint";
+  hint.textContent = "Drag to move, double-click or + to zoom.";
+  tools.append(hint);
+  figure.prepend(tools);
+  figure.classList.add("fits");
+  size();
+  new ResizeObserver(() => requestAnimationFrame(size)).observe(frame);
+  drawings.push(drawing);
+}
+
 const themes = window.matchMedia("(prefers-color-scheme: dark)");
 const redraw = () => figures.forEach(figure => figure.redraw());
 const button = document.getElementById("theme");
@@ -276,6 +374,7 @@ themes.addEventListener("change", redraw);
 
 // paper shows everything
 const folded = [];
+window.addEventListener("beforeprint", () => drawings.forEach(drawing => drawing.zoom(0)));
 window.addEventListener("beforeprint", () => all("details:not([open])").forEach(part => {
   part.open = true;
   folded.push(part);
@@ -283,6 +382,7 @@ window.addEventListener("beforeprint", () => all("details:not([open])").forEach(
 window.addEventListener("afterprint", () => folded.splice(0).forEach(part => { part.open = false; }));
 
 all("figure.chart").filter(figure => figure.querySelector(".live")).forEach(enliven);
-window.lptn = { figures };
+all("figure.drawing").forEach(fitted);
+window.lptn = { figures, drawings };
 root.dataset.ready = figures.length;
 })();

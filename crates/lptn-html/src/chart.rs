@@ -1,6 +1,6 @@
 //! Curves: a picture of them, and their values for the script.
 
-use lptn_plot::chart::{ink, ranges, scene};
+use lptn_plot::chart::{far, ink, is_far, ranges, scene};
 use lptn_plot::figure::{Axis, Curve, Look, Panel, Scale};
 use lptn_plot::svg::{self, escaped};
 use lptn_plot::{Figure, SERIES, printed};
@@ -57,8 +57,7 @@ fn values(figure: &Figure) -> Value {
 fn of_panel(figure: &Figure, panel: &Panel, places: &mut Vec<Vec<f64>>) -> Value {
     let [across, upward] = ranges(figure, panel);
     let curves = panel.curves.iter().enumerate();
-    let curves: Vec<Value> =
-        curves.map(|(i, curve)| of_curve((curve, i), &panel.x, places)).collect();
+    let curves: Vec<Value> = curves.map(|(i, curve)| of_curve((curve, i), panel, places)).collect();
     let limits = panel.limits.iter().map(|limit| json!({"name": limit.name, "at": limit.value}));
     let moments = panel.moments.iter().map(|moment| json!({"name": moment.name, "at": moment.at}));
     json!({
@@ -68,6 +67,7 @@ fn of_panel(figure: &Figure, panel: &Panel, places: &mut Vec<Vec<f64>>) -> Value
         "curves": curves,
         "limits": limits.collect::<Vec<_>>(),
         "moments": moments.collect::<Vec<_>>(),
+        "beyond": far(panel),
     })
 }
 
@@ -83,7 +83,8 @@ fn axis(axis: &Axis, (low, high): (f64, f64)) -> Value {
 
 /// A curve as data. It is interrupted at values that are not finite, which JSON has as `null`.
 /// Points that the x axis cannot show are left out.
-fn of_curve((curve, at): (&Curve, usize), across: &Axis, places: &mut Vec<Vec<f64>>) -> Value {
+fn of_curve((curve, at): (&Curve, usize), panel: &Panel, places: &mut Vec<Vec<f64>>) -> Value {
+    let across = &panel.x;
     let mut order: Vec<usize> =
         (0..curve.points.len()).filter(|&i| across.scale.shows(curve.points[i].0)).collect();
     order.sort_by(|&a, &b| curve.points[a].0.total_cmp(&curve.points[b].0));
@@ -101,6 +102,9 @@ fn of_curve((curve, at): (&Curve, usize), across: &Axis, places: &mut Vec<Vec<f6
         "x": place,
         "y": order.iter().map(|&i| curve.points[i].1).collect::<Vec<f64>>(),
     });
+    if is_far(panel, curve) {
+        value["far"] = true.into();
+    }
     if !curve.spread.is_empty() {
         value["low"] = order.iter().map(|&i| curve.spread[i].0).collect();
         value["high"] = order.iter().map(|&i| curve.spread[i].1).collect();

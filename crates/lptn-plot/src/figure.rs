@@ -65,6 +65,8 @@ pub struct Curve {
     pub spread: Vec<(f64, f64)>,
     /// Its style.
     pub look: Look,
+    /// True if it does not set the scale if it is far from all others, as empty space is.
+    pub aside: bool,
     /// The place whose ink it has, if not its own: for the same thing in another panel, or for a
     /// measured and a computed curve.
     pub place: Option<usize>,
@@ -145,8 +147,8 @@ impl Panel {
 impl Curve {
     /// A line through points.
     pub fn line(name: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
-        let (spread, look, place) = (Vec::new(), Look::Line, None);
-        Self { name: name.into(), points, spread, look, place }
+        let (spread, look, aside, place) = (Vec::new(), Look::Line, false, None);
+        Self { name: name.into(), points, spread, look, aside, place }
     }
 
     /// Sets how the curve is drawn.

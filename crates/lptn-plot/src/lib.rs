@@ -19,10 +19,11 @@ pub mod svg;
 pub mod terminal;
 mod thin;
 mod ticks;
+mod views;
 
 pub use figure::Figure;
 pub use ink::{FIELD, Ink, Rgb, SERIES, Theme, contrast};
 pub use png::PngError;
 pub use scene::Scene;
 pub use thin::thinned;
-pub use ticks::printed;
+pub use ticks::{printed, round_marks};

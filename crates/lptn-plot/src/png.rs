@@ -30,6 +30,15 @@ pub enum PngError {
 /// # Errors
 /// [`PngError`] if it is empty or too large for memory.
 pub fn write(scene: &Scene, scale: f64) -> Result<Vec<u8>, PngError> {
+    write_in(scene, scale, Theme::Light)
+}
+
+/// The same in the colours of a theme. The file states its resolution, so that it is printed in the
+/// size of the drawing.
+///
+/// # Errors
+/// As [`write`].
+pub fn write_in(scene: &Scene, scale: f64, theme: Theme) -> Result<Vec<u8>, PngError> {
     let pixels = |length: f64| (length * scale).ceil().clamp(0.0, 1e9) as u32;
     let size = (pixels(scene.size.0), pixels(scene.size.1));
     let fails = || PngError::Size { width: size.0, height: size.1 };
@@ -37,6 +46,7 @@ pub fn write(scene: &Scene, scale: f64) -> Result<Vec<u8>, PngError> {
         pixels: Pixmap::new(size.0, size.1).ok_or_else(fails)?,
         scale: Transform::from_scale(scale as f32, scale as f32),
         faces: [font::face(false), font::face(true)],
+        theme,
     };
     for shape in &scene.shapes {
         match shape {
@@ -44,16 +54,57 @@ pub fn write(scene: &Scene, scale: f64) -> Result<Vec<u8>, PngError> {
             Shape::Text(text) => canvas.text(text),
         }
     }
-    canvas.pixels.encode_png().map_err(|_| fails())
+    let bytes = canvas.pixels.encode_png().map_err(|_| fails())?;
+    Ok(with_resolution(bytes, scale))
+}
+
+/// Pixels of a drawing in a metre.
+const PER_METRE: f64 = 96.0 / 0.0254;
+
+/// Length of the signature and of the chunk `IHDR`, after which other chunks may begin.
+const HEAD: usize = 8 + 25;
+
+/// Adds the chunk `pHYs` (PNG 1.2, 11.3.5.3): pixels in a metre, across and down.
+fn with_resolution(mut bytes: Vec<u8>, scale: f64) -> Vec<u8> {
+    let per_metre = ((PER_METRE * scale).round() as u32).to_be_bytes();
+    let content = [b"pHYs".as_slice(), &per_metre, &per_metre, &[1]].concat();
+    let length = (content.len() - 4) as u32;
+    let crc = crc(&content).to_be_bytes();
+    let chunk = [&length.to_be_bytes(), content.as_slice(), &crc].concat();
+    let head = HEAD.min(bytes.len());
+    bytes.splice(head..head, chunk);
+    bytes
+}
+
+/// The check sum of a chunk: CRC-32 of ISO 3309.
+fn crc(bytes: &[u8]) -> u32 {
+    let mut sum = u32::MAX;
+    for byte in bytes {
+        sum ^= u32::from(*byte);
+        for _ in 0..8 {
+            sum = if sum & 1 == 1 { 0xEDB8_8320 ^ (sum >> 1) } else { sum >> 1 };
+        }
+    }
+    !sum
 }
 
 struct Canvas {
     pixels: Pixmap,
     scale: Transform,
     faces: [Option<Face<'static>>; 2],
+    theme: Theme,
 }
 
 impl Canvas {
+    fn paint(&self, ink: Ink, opacity: f64) -> Paint<'static> {
+        let [r, g, b] = ink.rgb(self.theme);
+        let mut paint = Paint::default();
+        let alpha = (opacity * 255.0).round().clamp(0.0, 255.0) as u8;
+        paint.set_color(Color::from_rgba8(r, g, b, alpha));
+        paint.anti_alias = true;
+        paint
+    }
+
     fn path(&mut self, path: &Path) {
         let mut builder = PathBuilder::new();
         for step in &path.steps {
@@ -69,7 +120,7 @@ impl Canvas {
         }
         let Some(outline) = builder.finish() else { return };
         if let Some(fill) = path.fill {
-            let paint = paint(fill.ink, fill.opacity);
+            let paint = self.paint(fill.ink, fill.opacity);
             self.pixels.fill_path(&outline, &paint, FillRule::Winding, self.scale, None);
         }
         if let Some(stroke) = path.stroke {
@@ -83,7 +134,13 @@ impl Canvas {
                     .and_then(|lengths| StrokeDash::new(lengths.map(|x| x as f32).to_vec(), 0.0)),
                 ..Line::default()
             };
-            self.pixels.stroke_path(&outline, &paint(stroke.ink, 1.0), &line, self.scale, None);
+            self.pixels.stroke_path(
+                &outline,
+                &self.paint(stroke.ink, 1.0),
+                &line,
+                self.scale,
+                None,
+            );
         }
     }
 
@@ -110,17 +167,8 @@ impl Canvas {
             .post_concat(turn)
             .post_translate(x, y)
             .post_concat(self.scale);
-        self.pixels.fill_path(&path, &paint(text.ink, 1.0), FillRule::Winding, place, None);
+        self.pixels.fill_path(&path, &self.paint(text.ink, 1.0), FillRule::Winding, place, None);
     }
-}
-
-fn paint(ink: Ink, opacity: f64) -> Paint<'static> {
-    let [r, g, b] = ink.rgb(Theme::Light);
-    let mut paint = Paint::default();
-    let alpha = (opacity * 255.0).round().clamp(0.0, 255.0) as u8;
-    paint.set_color(Color::from_rgba8(r, g, b, alpha));
-    paint.anti_alias = true;
-    paint
 }
 
 /// The outlines of a line of glyphs. In fonts, y grows upwards.
@@ -166,6 +214,16 @@ mod tests {
         let colour = |x, y| picture.pixel(x, y).map(|p| (p.red(), p.green(), p.blue()));
         assert_eq!(colour(14, 8), Some((0, 98, 170)));
         assert_eq!(colour(30, 8), Some((255, 255, 255)));
+    }
+
+    /// 300 dpi are 11811 pixels a metre; the check value of CRC-32 is that of `123456789`.
+    #[test]
+    fn a_picture_states_its_resolution() {
+        let bytes = write(&Scene::new((20.0, 10.0), ""), 300.0 / 96.0).unwrap();
+        let at = bytes.windows(4).position(|part| part == b"pHYs").unwrap() + 4;
+        assert_eq!(bytes[at..at + 9], [0, 0, 0x2E, 0x23, 0, 0, 0x2E, 0x23, 1]);
+        assert_eq!(super::crc(b"123456789"), 0xCBF4_3926);
+        assert!(tiny_skia::Pixmap::decode_png(&bytes).is_ok());
     }
 
     #[test]

@@ -124,9 +124,36 @@ impl Scene {
         self.shapes.push(Shape::Path(path));
     }
 
+    /// Draws another scene, without its paper, moved to the right and down.
+    pub fn add(&mut self, other: Self, by: (f64, f64)) {
+        self.shapes.extend(other.shapes.into_iter().skip(1).map(|shape| shape.moved(by)));
+    }
+
     /// Writes a text on top of the existing shapes.
     pub fn write(&mut self, text: Text) {
         self.shapes.push(Shape::Text(text));
+    }
+}
+
+impl Shape {
+    /// The same shape, moved to the right and down.
+    fn moved(self, (x, y): (f64, f64)) -> Self {
+        let at = |point: (f64, f64)| (point.0 + x, point.1 + y);
+        match self {
+            Self::Text(text) => Self::Text(Text { at: at(text.at), ..text }),
+            Self::Path(mut path) => {
+                for step in &mut path.steps {
+                    *step = match *step {
+                        Step::Move(u, v) => Step::Move(u + x, v + y),
+                        Step::Line(u, v) => Step::Line(u + x, v + y),
+                        Step::Curve(points) => Step::Curve(points.map(at)),
+                        Step::Close => Step::Close,
+                        Step::Circle(centre, radius) => Step::Circle(at(centre), radius),
+                    };
+                }
+                Self::Path(path)
+            }
+        }
     }
 }
 

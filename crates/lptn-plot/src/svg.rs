@@ -8,6 +8,11 @@ use crate::scene::{Align, Dash, Path, Scene, Shape, Step, Text};
 /// A drawing as SVG in the colours of paper. Each line has the class `s-KEY` and each area and text
 /// `f-KEY` of its [`Ink`](crate::Ink). A page can set other colours by these classes.
 pub fn write(scene: &Scene) -> String {
+    write_in(scene, Theme::Light)
+}
+
+/// The same in the colours of a theme.
+pub fn write_in(scene: &Scene, theme: Theme) -> String {
     let (width, height) = (length(scene.size.0), length(scene.size.1));
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
@@ -18,15 +23,15 @@ pub fn write(scene: &Scene) -> String {
     for shape in &scene.shapes {
         // writing to a `String` cannot fail
         let _ = match shape {
-            Shape::Path(path) => write_path(&mut out, path),
-            Shape::Text(text) => write_text(&mut out, text),
+            Shape::Path(path) => write_path(&mut out, path, theme),
+            Shape::Text(text) => write_text(&mut out, text, theme),
         };
     }
     out.push_str("</svg>\n");
     out
 }
 
-fn write_path(out: &mut String, path: &Path) -> fmt::Result {
+fn write_path(out: &mut String, path: &Path, theme: Theme) -> fmt::Result {
     out.push_str("<path d=\"");
     for step in &path.steps {
         match *step {
@@ -47,7 +52,7 @@ fn write_path(out: &mut String, path: &Path) -> fmt::Result {
     match path.fill {
         Some(fill) => {
             classes.push(format!("f-{}", fill.ink.key()));
-            write!(out, "\" fill=\"{}", fill.ink.hex(Theme::Light))?;
+            write!(out, "\" fill=\"{}", fill.ink.hex(theme))?;
             if fill.opacity < 1.0 {
                 write!(out, "\" fill-opacity=\"{}", length(fill.opacity))?;
             }
@@ -56,7 +61,7 @@ fn write_path(out: &mut String, path: &Path) -> fmt::Result {
     }
     if let Some(stroke) = path.stroke {
         classes.push(format!("s-{}", stroke.ink.key()));
-        let (colour, width) = (stroke.ink.hex(Theme::Light), length(stroke.width));
+        let (colour, width) = (stroke.ink.hex(theme), length(stroke.width));
         write!(out, "\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linejoin=\"round")?;
         if let Some([on, off]) = stroke.dash.lengths(stroke.width) {
             write!(out, "\" stroke-dasharray=\"{} {}", length(on), length(off))?;
@@ -69,10 +74,10 @@ fn write_path(out: &mut String, path: &Path) -> fmt::Result {
     }
 }
 
-fn write_text(out: &mut String, text: &Text) -> fmt::Result {
+fn write_text(out: &mut String, text: &Text, theme: Theme) -> fmt::Result {
     let (x, y) = (length(text.at.0), length(text.at.1));
     let (size, key) = (length(text.size), text.ink.key());
-    let colour = text.ink.hex(Theme::Light);
+    let colour = text.ink.hex(theme);
     write!(
         out,
         "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{colour}\" class=\"f-{key}\""

@@ -2,7 +2,7 @@
 
 use std::iter::repeat_n;
 
-use crate::chart::{across, apart, far, in_lines, upward};
+use crate::chart::{across, apart, far, in_lines, is_far, upward};
 use crate::figure::{Curve, Figure, Look, Panel, Scale};
 use crate::ink::SERIES;
 use crate::ticks::Ruler;
@@ -124,7 +124,8 @@ impl Canvas {
                 signs.enumerate().for_each(|(i, sign)| self.sign((row, i), sign));
             }
         }
-        for (place, curve) in panel.curves.iter().enumerate() {
+        let shown = |(_, curve): &(usize, &Curve)| !is_far(panel, curve);
+        for (place, curve) in panel.curves.iter().enumerate().filter(shown) {
             self.curve(panel, curve, curve.place.unwrap_or(place));
         }
     }
@@ -159,7 +160,8 @@ impl Canvas {
             }
             let dot = (
                 (self.x.place(x) * (2 * self.columns - 1) as f64).round(),
-                (self.down(y) * (4 * self.rows - 1) as f64).round(),
+                // outliers are at the edge
+                (self.down(y).clamp(0.0, 1.0) * (4 * self.rows - 1) as f64).round(),
             );
             let from = match curve.look {
                 Look::Line | Look::Dashed => last.unwrap_or(dot),
@@ -210,7 +212,11 @@ impl Canvas {
             "" => format!("{}\n", plain(&self.x.title)),
             title => format!("{} over {}\n", plain(title), plain(&self.x.title)),
         };
-        far(panel).iter().for_each(|text| out += &format!("{}\n", plain(text)));
+        let room = self.left + self.columns + self.right + 4;
+        let lines = |text: &String| in_lines(text, |line| line.chars().count() <= room);
+        for line in far(panel).iter().flat_map(lines) {
+            out += &format!("{}\n", plain(&line));
+        }
         let names = self.names(panel);
         for row in 0..self.rows {
             let cells = &self.cells[row * self.columns..(row + 1) * self.columns];
@@ -243,7 +249,8 @@ impl Canvas {
             let name: String = name.chars().take(self.right).collect();
             Some((name, self.row(last.1), place))
         };
-        let named = panel.curves.iter().enumerate().filter(|(_, curve)| !curve.name.is_empty());
+        let is_named = |curve: &Curve| !curve.name.is_empty() && !is_far(panel, curve);
+        let named = panel.curves.iter().enumerate().filter(|(_, curve)| is_named(curve));
         let mut names: Vec<_> = named.filter_map(end).collect();
         names.sort_by_key(|name| name.1);
         names.dedup_by(|a, b| a.0 == b.0 && a.2 == b.2);

@@ -71,6 +71,16 @@ fn marks((low, high): (f64, f64), step: f64) -> Vec<(f64, String)> {
     ticks
 }
 
+/// About `count` round values inside a range, with their texts.
+pub fn round_marks((low, high): (f64, f64), count: f64) -> Vec<(f64, String)> {
+    let is_range = high > low && (high - low).is_finite();
+    if is_range {
+        marks((low, high), round_step((high - low) / count.max(1.0)))
+    } else {
+        Vec::new()
+    }
+}
+
 /// Notation of the numbers of an axis, with enough digits to distinguish its marks.
 struct Notation {
     decimals: usize,
@@ -131,16 +141,24 @@ fn log(axis: &Axis, (low, high): (f64, f64), count: f64) -> Ruler {
     let all = (first..=last)
         .filter(|power| power % every == 0)
         .flat_map(|power| digits.iter().map(move |digit| digit * 10_f64.powi(power)));
-    let ticks = all.filter(inside).map(|value| (value, short(value))).collect();
+    let ticks = all.filter(inside).map(|value| (value, decade(value))).collect();
     Ruler { range: (low, high), ticks, title: title(&axis.name, &axis.unit), log: true }
 }
 
-fn short(value: f64) -> String {
+fn decade(value: f64) -> String {
     let power = exponent(value);
     if (-3..5).contains(&power) {
         return Notation::of(value, 10_f64.powi(power)).text(value);
     }
     format!("{}e{power}", (value / 10_f64.powi(power)).round()).replace('-', "\u{2212}")
+}
+
+/// A number with four digits, for sentences.
+pub(crate) fn short(value: f64) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+    Notation::of(value.abs(), 10_f64.powi(exponent(value.abs()) - 3)).text(value)
 }
 
 /// Units of time with their seconds and the steps that divide each.

@@ -32,6 +32,7 @@ pub(crate) fn run(asked: &Asked<'_>, words: &Words) -> Outcome {
         time_unit: words.one_of("time_unit", &TimeUnit::ALL, TimeUnit::symbol)?,
         balance: words.text("balance"),
         format: Format::Json,
+        picture: true,
         uncertainty: uncertainty(words)?,
         ..RunQuestion::default()
     };

@@ -85,7 +85,11 @@ fn across(column: &Column) -> Axis {
 /// The curve of a column. A temperature has the name of its node.
 fn curve(first: &Column, column: &Column) -> Curve {
     let name = column.name.strip_suffix(".T").unwrap_or(&column.name);
-    Curve::line(name, first.values.iter().copied().zip(column.values.iter().copied()).collect())
+    let points = first.values.iter().copied().zip(column.values.iter().copied()).collect();
+    // a constant temperature, such as that of empty space, may be far from all others
+    let is_constant = column.values.windows(2).all(|pair| pair[0].to_bits() == pair[1].to_bits());
+    let aside = is_constant && Quantity::of(column) == Quantity::Temperature;
+    Curve { aside, ..Curve::line(name, points) }
 }
 
 /// The members of each large family, and the other columns.

@@ -38,7 +38,7 @@ pub use names::{differing, plain, shortened};
 pub use number::{Shortest, decimals, duration, fixed, prefix, significant};
 pub use of_page::report_of;
 pub use page::{Page, PageOf, Rows};
-pub use picture::Picture;
+pub use picture::{Canvas, Picture};
 pub use report::{Claim, Piece, Report, Section};
 pub use sparkline::sparkline;
 pub use standing::Standing;

@@ -52,6 +52,11 @@ impl Readings {
         Ok(Self { ends, limits, windows })
     }
 
+    /// The times between start and stop at which inputs or results may bend or jump, in s.
+    pub(crate) fn inner(&self) -> &[f64] {
+        &self.ends[1..self.ends.len() - 1]
+    }
+
     /// A time inside the stretch in which a result at `time` is read: the one that begins there, at
     /// the stop the last.
     pub(crate) fn inside(&self, time: f64) -> f64 {

@@ -1,5 +1,6 @@
 //! Writes rows while a run goes on, and evaluates the watched nodes.
 
+mod jump;
 mod look;
 mod lookout;
 mod place;
@@ -36,6 +37,8 @@ use crate::tracked::Tracked;
 use crate::unfold::Unfold;
 use crate::unsolved::Unsolved;
 
+pub(crate) use jump::Jumps;
+
 /// Writes the state at a time inside the present step.
 type StateAt<'a> = dyn FnMut(f64, &mut [f64]) -> Result<(), IntegrateError> + 'a;
 
@@ -67,6 +70,10 @@ pub(crate) struct Recorder<'a> {
     ranges: RangeWatch<'a>,
     /// The windows of the run, then that of the limits and reports over time if there is one.
     windows: Vec<Tracked>,
+    /// The columns on both sides of jumps; `None` if no picture needs them.
+    jumps: Option<Jumps>,
+    /// A time of the present step at which something may switch, in s.
+    edge: f64,
     reading: Reading<'a>,
     /// The variables of the integrator at one time.
     state: Vec<f64>,
@@ -120,6 +127,8 @@ impl<'a> Recorder<'a> {
             limits: LimitWatch::new(system),
             ranges: RangeWatch::new(system),
             windows: windows.collect(),
+            jumps: settings.jumps.clone().map(Jumps::new),
+            edge: f64::INFINITY,
             reading: Reading::new(system),
             state: vec![0.0; system.states().len()],
             sensed: Sensed::of(system, &settings.sensitivities)?,
@@ -180,9 +189,11 @@ impl<'a> Recorder<'a> {
         self.work.draw_line(self.system.network(), (from, to), self.readings.inside(from));
     }
 
-    /// Ends the segment here: a row at this time is left to the next one.
-    pub(crate) fn cut(&mut self, time: f64) {
-        self.segment.to = time;
+    /// Ends the segment at `cut`, if there is one: a row at this time is left to the next segment.
+    /// At `armed` something may switch.
+    pub(crate) fn edges(&mut self, cut: Option<f64>, armed: f64) {
+        self.segment.to = cut.unwrap_or(self.segment.to);
+        self.edge = armed;
     }
 
     /// Number of rows that are written.
@@ -204,11 +215,12 @@ impl<'a> Recorder<'a> {
         self.lookout.start(from, self.system.node_temperatures(&self.work));
         self.limits.enter(&mut self.work, (from, self.inside)).map_err(StopReason::Input)?;
         self.ranges.enter(&mut self.work, from).map_err(StopReason::Input)?;
+        self.edge = f64::INFINITY;
         if self.due(from) {
             self.check_heat()?;
-            self.push()?;
+            return self.push();
         }
-        Ok(())
+        self.keep_after(from)
     }
 
     /// Checks that a row is complete: its heat can be computed too. Before the first step nothing
@@ -248,12 +260,15 @@ impl<'a> Recorder<'a> {
             }
             self.push()?;
         }
-        self.look_between((from, to), &mut |time, state| integrator.interpolate(time, state))
+        let state_at: &mut StateAt<'_> = &mut |time, state| integrator.interpolate(time, state);
+        self.keep_between((from, to), state_at)?;
+        self.look_between((from, to), state_at)
     }
 
     /// Evaluates the watched nodes of a system without state between two times.
     pub(crate) fn look_without_state(&mut self, from: f64, to: f64) -> Result<(), StopReason> {
         self.walk((from, to));
+        self.keep_between((from, to), &mut |_, _| Ok(()))?;
         self.look_between((from, to), &mut |_, _| Ok(()))
     }
 
@@ -334,6 +349,7 @@ impl<'a> Recorder<'a> {
             recorded: self.recorded,
             temperatures: self.temperatures,
             columns: self.columns,
+            jumps: self.jumps.and_then(Jumps::into_sides),
             extremes: self.extremes,
             looks: Looks { placed: self.placed, sought: self.lookout.sought() },
             seen: self.lookout.into_seen(),

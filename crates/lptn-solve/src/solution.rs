@@ -64,6 +64,8 @@ pub struct Solution {
     /// Row by row, one temperature in K for each recorded node.
     pub(crate) temperatures: Vec<f64>,
     pub(crate) columns: Columns,
+    /// Selected columns on both sides of jumps: time in s, and values in SI units.
+    pub(crate) jumps: Option<Vec<(f64, Vec<f64>)>>,
     pub(crate) extremes: Extremes,
     pub(crate) seen: Vec<Watched>,
     pub(crate) looks: Looks,
@@ -97,6 +99,13 @@ impl Solution {
     /// The integrator that computed it; `None` for a network without capacities.
     pub fn method(&self) -> Option<Method> {
         self.method
+    }
+
+    /// True if the columns are known on both sides of all jumps: see [`Transient::jumps`].
+    ///
+    /// [`Transient::jumps`]: crate::Transient::jumps
+    pub fn knows_jumps(&self) -> bool {
+        self.jumps.is_some()
     }
 
     /// The time of each row in s.

@@ -130,6 +130,32 @@ impl Table {
         Self { labels: Vec::new(), columns }
     }
 
+    /// The table of a run with further rows on both sides of its jumps, bends and switches, if
+    /// they are known. `selection` is that of [`crate::Transient::jumps`].
+    #[must_use]
+    pub fn with_jumps(mut self, solution: &Solution, selection: &Selection, unit: &Unit) -> Self {
+        let Some(sides) = solution.jumps.as_ref().filter(|sides| !sides.is_empty()) else {
+            return self;
+        };
+        let network = solution.network();
+        let shown: Vec<Shown> =
+            selection.quantities().iter().map(|&of| Shown::of(of, network)).collect();
+        let rows = self.columns[0].values.len();
+        for (time, values) in sides {
+            self.columns[0].values.push(*time);
+            for ((column, value), shown) in self.columns[1..].iter_mut().zip(values).zip(&shown) {
+                column.values.push(shown.value(*value, unit));
+            }
+        }
+        let times = &self.columns[0].values;
+        let mut order: Vec<usize> = (0..rows + sides.len()).collect();
+        order.sort_by(|&a, &b| times[a].total_cmp(&times[b]));
+        for column in &mut self.columns {
+            column.values = order.iter().map(|&row| column.values[row]).collect();
+        }
+        self
+    }
+
     /// The same with its first column, times in s, in a unit of `seconds`.
     #[must_use]
     pub fn with_times_in(mut self, unit: &str, seconds: f64) -> Self {

@@ -356,9 +356,8 @@ impl<'a> Run<'a> {
         if to < crossed {
             due.clear();
         }
-        if !due.is_empty() || leaves.is_some() {
-            self.recorder.cut(to);
-        }
+        let cut = !due.is_empty() || leaves.is_some();
+        self.recorder.edges(cut.then_some(to), armed);
         let row = self.recorder.written();
         self.recorder.step(self.integrator.as_mut(), step.from, to).map_err(Break::Failed)?;
         if let Some(switching) = &mut self.switching {

@@ -30,8 +30,8 @@ use crate::{balance, period, scale, select, trust};
 /// The name of the window over the cycle.
 const CYCLE: &str = "cycle";
 
-/// Least number of rows per cycle.
-const LEAST_ROWS: f64 = 20.0;
+/// Least number of rows per cycle: fewer draw its curves as polygons.
+const LEAST_ROWS: f64 = OutputTimes::USUAL_INTERVALS;
 
 /// The settled cycle of a netlist.
 #[derive(Clone, Debug)]
@@ -98,6 +98,7 @@ impl CycleQuestion {
             balance,
             at: Vec::new(),
             report: self.report,
+            picture: true,
             detail: self.detail,
             uncertainty: None,
             input,
@@ -162,6 +163,7 @@ fn find(
     let cycle = RunAnalysis::of(system.network(), &task.settings)
         .keeping(record(system.network(), &task.selection))
         .over(vec![window])
+        .drawing(task.selection.clone())
         .balancing(task.balance);
     listener.begin();
     let found = cycle.cycle(system, &mut |progress| listener.progress(progress));

@@ -24,7 +24,8 @@ impl RunAnswer {
         let (network, unit) = (self.solution.network(), &self.task.unit);
         // the bands of uncertain results are of single curves
         let fold = families && self.uncertainty().is_none();
-        let (mut panels, left_out) = panels(&self.table, fold);
+        let table = self.table.clone().with_jumps(&self.solution, &self.task.selection, unit);
+        let (mut panels, left_out) = panels(&table, fold);
         let undrawn = limits::mark(&mut panels, network, unit, families);
         let moments = moments(network, self.solution.events());
         for panel in &mut panels {
@@ -51,8 +52,11 @@ impl RunAnswer {
         if no_moments && events > 0 {
             notes.push(format!("{events} events, which are not marked"));
         }
-        if events > self.table.rows() {
+        let drawn = self.solution.knows_jumps();
+        if events > self.table.rows() && !drawn {
             notes.push("more happens between rows than they show: --every writes more".into());
+        } else if self.task.picture && !drawn {
+            notes.push("too many jumps and bends to draw: straight between rows".into());
         }
         notes.extend(limits::broken(&self.judgement(&self.limits())));
         notes.extend(self.ended_early());

@@ -95,6 +95,9 @@ impl RunTask {
             record = RecordedNodes::All;
         }
         let mut run = run;
+        if self.picture {
+            run = run.drawing(self.selection.clone());
+        }
         if self.format == Format::Table {
             let selection = Some(&self.selection).filter(|_| self.chosen);
             let shown = shown(system.network(), selection, steady);

@@ -34,6 +34,8 @@ pub struct RunQuestion {
     pub format: Format,
     /// True if a report is wanted: it needs every node and the steady state.
     pub report: bool,
+    /// True if the run is drawn: its columns are read on both sides of jumps too.
+    pub picture: bool,
     /// Amount of detail in a table.
     pub detail: Detail,
     /// The uncertainty of the results, if it is requested.
@@ -51,6 +53,7 @@ impl Default for RunQuestion {
             at: Vec::new(),
             format: Format::Table,
             report: false,
+            picture: false,
             detail: Detail::Brief,
             uncertainty: None,
         }
@@ -91,6 +94,8 @@ pub struct RunTask {
     pub at: Vec<f64>,
     /// True if a report is wanted.
     pub report: bool,
+    /// True if it is drawn.
+    pub picture: bool,
     /// Amount of detail in a table.
     pub detail: Detail,
     /// The uncertainty that is requested.
@@ -117,6 +122,7 @@ impl RunQuestion {
         uncertainty::check(self.uncertainty.as_ref(), &input)?;
         let (clock, uncertainty) = (Clock(self.time_unit), self.uncertainty.clone());
         let Self { format, report, detail, .. } = *self;
+        let picture = self.picture || report;
         Ok(RunTask {
             input,
             settings,
@@ -128,6 +134,7 @@ impl RunQuestion {
             balance,
             at,
             report,
+            picture,
             detail,
             uncertainty,
         })

@@ -67,6 +67,29 @@ for (const figure of lptn.figures) {
     found.charts.push(seen);
   }
 }
+// drawings: all of one is in the page; buttons and keys zoom, and show all again
+found.drawings = [];
+for (const { svg, frame } of lptn.drawings) {
+  const folded = svg.closest("details");
+  if (folded) folded.open = true;
+  await new Promise(done => setTimeout(done, 50));
+  const view = () => svg.getAttribute("viewBox").split(" ").map(Number);
+  const press = key => frame.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+  const buttons = frame.parentElement.querySelectorAll(".tools button");
+  const seen = { before: view(), right: svg.getBoundingClientRect().right, page: document.documentElement.clientWidth };
+  buttons[0].click();
+  seen.nearer = view();
+  press("ArrowRight");
+  seen.moved = view();
+  buttons[2].click();
+  seen.all = view();
+  press("+");
+  seen.key = view();
+  press("0");
+  seen.again = view();
+  if (folded) folded.open = false;
+  found.drawings.push(seen);
+}
 const out = document.createElement("pre");
 out.id = "probe";
 out.textContent = JSON.stringify(found);

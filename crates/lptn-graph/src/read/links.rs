@@ -2,13 +2,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use lptn_network::{ConductorFlow, ConductorId, ConductorKind, Item};
+use lptn_network::{ConductorFlow, ConductorId, ConductorKind, End, Item};
 use lptn_report::plain;
 use lptn_solve::Snapshot;
 
 use super::{MOST_APART, NOISE, Reader};
 use crate::model::Link;
 use crate::words;
+
+/// A smaller difference of temperatures, in K, does not determine the rate of a stream.
+const LEAST_DIFFERENCE: f64 = 1e-6;
 
 /// Several conductors that become one path.
 #[derive(Default)]
@@ -82,8 +85,48 @@ impl Reader<'_> {
             value: self.value(members),
             stream,
             heat: heat.map(|heat| if heat.abs() > NOISE { heat } else { 0.0 }),
+            carries: self
+                .view
+                .state
+                .filter(|_| stream)
+                .and_then(|state| self.carries(members, state)),
             against: against.filter(|_| stream).unwrap_or(0.0),
         }
+    }
+
+    /// The capacity rate of streams that run one way, and its product with the temperature that
+    /// they leave with; `None` if they run both ways.
+    fn carries(&self, members: &[ConductorId], state: &Snapshot) -> Option<(f64, f64)> {
+        let back = self.runs_back(members[0]);
+        let start = |id: ConductorId| {
+            let conductor = &self.network.conductors()[id.index()];
+            if back { conductor.to } else { conductor.from }
+        };
+        let from = self.at(start(members[0]));
+        members.iter().try_fold((0.0, 0.0), |(rate, product), &id| {
+            let one_way = self.runs_back(id) == back && self.at(start(id)) == from;
+            let own = one_way.then(|| self.rate(id, state))?;
+            Some((rate + own, product + own * self.kelvin(start(id), state)))
+        })
+    }
+
+    fn kelvin(&self, end: End, state: &Snapshot) -> f64 {
+        match end {
+            End::Node(id) => state.temperatures[id.index()],
+            End::Boundary(id) => state.boundary_temperatures[id.index()],
+        }
+    }
+
+    /// The capacity rate of a stream in W/K: its heat over the difference of its temperatures,
+    /// unless it is constant.
+    fn rate(&self, id: ConductorId, state: &Snapshot) -> f64 {
+        if let ConductorFlow::Stream(rate) = self.network.flow(id) {
+            return rate.abs();
+        }
+        let conductor = &self.network.conductors()[id.index()];
+        let [from, to] = [conductor.from, conductor.to].map(|end| self.kelvin(end, state));
+        let heat = state.received[id.index()].iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        if (from - to).abs() > LEAST_DIFFERENCE { heat / (from - to).abs() } else { 0.0 }
     }
 
     /// True if a stream flows from its second end to its first.

@@ -69,8 +69,20 @@ const MOST_APART: usize = 3;
 /// Heat flows below this, in W, are rounding errors.
 const NOISE: f64 = 1e-9;
 
+/// Boundaries colder than this share of the coldest node, in K, do not set the scale: empty space
+/// would give all nodes one colour.
+const SPACE: f64 = 0.5;
+
+/// True if a boundary is too cold for the scale.
+fn is_below(state: &Snapshot, kelvin: f64) -> bool {
+    let coldest = state.temperatures.iter().copied().fold(f64::INFINITY, f64::min);
+    coldest.is_finite() && kelvin < SPACE * coldest
+}
+
+/// The coldest and the hottest temperature in K that set the scale.
 fn span(state: &Snapshot) -> [f64; 2] {
-    let all = || state.temperatures.iter().chain(&state.boundary_temperatures).copied();
+    let boundaries = state.boundary_temperatures.iter().filter(|t| !is_below(state, **t));
+    let all = || state.temperatures.iter().chain(boundaries.clone()).copied();
     [all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)]
 }
 
@@ -102,12 +114,21 @@ impl Reader<'_> {
     }
 
     fn scales(&self, state: &Snapshot, span: [f64; 2], most: f64) -> Scales {
-        let caption = words::caption(self.network, state);
+        let mut caption = words::caption(self.network, state);
+        for (boundary, kelvin) in self.network.boundaries().iter().zip(&state.boundary_temperatures)
+        {
+            if is_below(state, *kelvin) {
+                let name = plain(&boundary.name);
+                caption += &format!("; {name}, {}, is below the scale", self.scale.text(*kelvin));
+            }
+        }
         let most = if most > NOISE { most } else { 0.0 };
         let heat_unit = words::unit_of(most, "W");
         let decimals = lptn_report::decimals(most / heat_unit.0, 4, 0).min(4);
+        let ticks = self.scale.ticks(span);
         let ends = span.map(|kelvin| self.scale.text(kelvin));
-        Scales { span, ends, caption, most, heat_unit, decimals }
+        let unit = self.view.unit.clone();
+        Scales { span, ends, ticks, unit, caption, most, heat_unit, decimals }
     }
 
     fn group(&self, group: &Group) -> Place {

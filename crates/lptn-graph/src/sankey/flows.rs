@@ -1,5 +1,6 @@
 //! The heat of a diagram as bars and bands between them.
 
+use super::streams::Streams;
 use crate::model::Diagram;
 
 /// Flows below this share of the largest are not shown.
@@ -77,19 +78,21 @@ impl HeatFlows {
             let heat = source.heat.unwrap_or(0.0);
             all.own_bar(Bar::new(source.name.clone(), BarRole::Source), source.into, heat);
         }
-        for link in &diagram.links {
+        let streams = Streams::of(diagram);
+        for (link, carried) in diagram.links.iter().zip(&streams.carried) {
             let heat = link.heat.unwrap_or(0.0);
-            if link.stream {
-                let stream = || Bar::new(link.name.clone(), BarRole::Stream);
-                all.own_bar(stream(), link.to, heat);
-                all.own_bar(stream(), link.from, link.against);
-            } else {
-                all.band(link.name.clone(), (link.from, link.to), heat);
+            match carried {
+                Some(carried) => all.band(link.name.clone(), (link.from, link.to), *carried),
+                None if link.stream => {
+                    let stream = || Bar::new(link.name.clone(), BarRole::Stream);
+                    all.own_bar(stream(), link.to, heat);
+                    all.own_bar(stream(), link.from, link.against);
+                }
+                None => all.band(link.name.clone(), (link.from, link.to), heat),
             }
         }
-        for (i, place) in diagram.places.iter().enumerate() {
-            let name = format!("streams in {}", place.name);
-            all.own_bar(Bar::new(name, BarRole::Stream), i, place.within);
+        for (i, (name, heat)) in streams.left.into_iter().enumerate() {
+            all.own_bar(Bar::new(name, BarRole::Stream), i, heat);
         }
         all.store(diagram);
         all.without_dust()

@@ -1,12 +1,13 @@
 //! The heat flows of a state as a Sankey diagram: bars that heat comes from, goes through and ends
 //! in, and between them bands as wide as heat flows.
 //!
-//! A stream is not a band between two places. It takes nothing from the node that it leaves, so its
-//! heat comes from a separate bar or goes to one. Otherwise no node would balance. For the same
-//! reason streams inside a group, and bundles that run both ways, are counted.
+//! Streams join places too, by the heat that their fluid carries above the coldest temperature that
+//! it reaches: see `streams`. Streams of a bundle that run both ways are counted by the heat that
+//! they bring.
 
 mod flows;
 mod place;
+mod streams;
 
 use lptn_plot::font::width;
 use lptn_plot::scene::{Align, Path, Step, Text, polygon, rectangle};
@@ -63,7 +64,7 @@ const MARGIN: f64 = 24.0;
 const MOST_WIDTH: f64 = 2000.0;
 
 /// A band that is narrower than this has no room for its name.
-const NAMED: f64 = 13.0;
+const NAMED: f64 = 20.0;
 
 /// The heat flows of a diagram as a drawing. Heat flows from left to right. Bands that would close
 /// a circle flow back and bear an arrow.
@@ -89,7 +90,8 @@ pub fn sankey(diagram: &Diagram) -> Result<Scene, NoSankey> {
         wide = drawing.columns();
     }
     let head = if diagram.title.is_empty() { 0.0 } else { 40.0 };
-    let legend = legend::scale_size(scales);
+    let caption = caption(diagram, scales);
+    let legend = legend::scale_size(&caption);
     let wide = wide.max(width(&diagram.title, 16.0, true)).max(legend.width);
     let size = (wide + 2.0 * MARGIN, head + placed.height + legend.height + 2.0 * MARGIN);
     let mut scene = Scene::new((size.0.ceil(), size.1.ceil()), diagram.title.clone());
@@ -97,8 +99,19 @@ pub fn sankey(diagram: &Diagram) -> Result<Scene, NoSankey> {
     scene.write(title.bold());
     drawing.draw(&mut scene, MARGIN + head);
     let corner = (MARGIN, size.1 - MARGIN - legend.height + legend::GAP);
-    legend::scale(&mut scene, &scales.ends, &scales.caption, corner);
+    legend::scale(&mut scene, (&scales.ends, &scales.ticks), &caption, corner);
     Ok(scene)
+}
+
+/// The caption of the state, and the meaning of the heat of streams.
+fn caption(diagram: &Diagram, scales: &Scales) -> String {
+    let carried = |link: &crate::model::Link| link.carries.is_some();
+    let above = match streams::reference(diagram) {
+        Some(kelvin) => scales.temperature(kelvin),
+        None if diagram.links.iter().any(carried) => "their coldest place".into(),
+        None => return scales.caption.clone(),
+    };
+    format!("{}; streams carry heat above {above}", scales.caption)
 }
 
 /// Puts bars and bands on a page.

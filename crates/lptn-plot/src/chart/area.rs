@@ -32,6 +32,15 @@ impl Area {
         self.bottom - place * (self.bottom - self.top)
     }
 
+    /// The edge that a height on the page is beyond, and true if that is the upper one.
+    pub(crate) fn edge(&self, y: f64) -> Option<(f64, bool)> {
+        match (y < self.top, y > self.bottom) {
+            (true, _) => Some((self.top, true)),
+            (_, true) => Some((self.bottom, false)),
+            _ => None,
+        }
+    }
+
     pub(crate) fn width(&self) -> f64 {
         self.right - self.left
     }

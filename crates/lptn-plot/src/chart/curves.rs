@@ -1,6 +1,7 @@
 //! Lines, dots, bands and bars of a panel.
 
 use super::area::Area;
+use super::range;
 use crate::figure::{Curve, Look, Panel, Scale};
 use crate::ink::{Ink, SERIES};
 use crate::scene::{Dash, Path, Scene, Step, Stroke, circle, line, polygon};
@@ -12,6 +13,9 @@ const LINE: f64 = 1.8;
 /// Radius of a dot, one among few and one among many.
 const DOTS: [f64; 2] = [3.0, 1.5];
 
+/// More dots than this are thinned even if they are not over time.
+const MOST_DOTS: usize = 10_000;
+
 /// Width in pixels of the stretches in which very many dots are thinned.
 const PER_DOT: f64 = 3.0;
 
@@ -22,7 +26,8 @@ pub fn ink(curve: &Curve, place: usize) -> Ink {
 
 /// Draws the curves of a panel with their bands and bars.
 pub(super) fn draw(scene: &mut Scene, panel: &Panel, area: &Area) {
-    for (place, curve) in panel.curves.iter().enumerate() {
+    let shown = |(_, curve): &(usize, &Curve)| !range::is_far(panel, curve);
+    for (place, curve) in panel.curves.iter().enumerate().filter(shown) {
         let ink = ink(curve, place);
         spread(scene, curve, (panel, area), ink);
         // dashes distinguish the second round of colours
@@ -65,15 +70,27 @@ fn lines(scene: &mut Scene, curve: &Curve, place: Place<'_>, stroke: Stroke) {
     }
 }
 
-/// Draws dots. If there are very many, outliers stay.
+/// Draws dots. Those outside of the range are triangles at its edge. If there are very many over
+/// time, outliers stay; those of a scatter are all there.
 fn dots(scene: &mut Scene, curve: &Curve, place: Place<'_>, ink: Ink) {
-    let most = (place.1.width() / PER_DOT) as usize;
-    let radius = DOTS[usize::from(curve.points.len() > most / 3)];
+    let stretches = (place.1.width() / PER_DOT) as usize;
+    let thins = place.0.x.scale == Scale::Time || curve.points.len() > MOST_DOTS;
+    let most = if thins { stretches } else { curve.points.len() };
+    let radius = DOTS[usize::from(curve.points.len() > stretches / 3)];
     let shown = placed(&curve.points, place, most).into_iter().filter(|at| at.1.is_finite());
-    let steps: Vec<Step> = shown.flat_map(|at| circle(at, radius).steps).collect();
+    let steps = |(x, y): (f64, f64)| match place.1.edge(y) {
+        None => circle((x, y), radius).steps,
+        Some((edge, up)) => triangle((x, edge), if up { DOTS[0] } else { -DOTS[0] }).steps,
+    };
+    let steps: Vec<Step> = shown.flat_map(steps).collect();
     if !steps.is_empty() {
         scene.put(Path::new(steps).filled(ink, 1.0).tipped(&curve.name));
     }
+}
+
+/// A triangle that points up from its base by twice its half width, or down if that is negative.
+fn triangle((x, y): (f64, f64), half: f64) -> Path {
+    polygon([(x - half, y + 2.0 * half), (x + half, y + 2.0 * half), (x, y)])
 }
 
 fn stems(scene: &mut Scene, curve: &Curve, place: Place<'_>, ink: Ink) {

@@ -2,15 +2,16 @@
 
 use super::area::{Area, NAME, SMALL, shortened};
 use super::range;
-use crate::figure::{Level, Panel, Scale};
+use crate::figure::{Curve, Level, Panel, Scale};
 use crate::font::width;
 use crate::ink::Ink;
 use crate::scene::{Align, Dash, Scene, Stroke, Text, line};
+use crate::ticks::{printed, short};
 
 /// Room for the numbers and the title of the horizontal axis.
 pub(super) const ROOM_BELOW: f64 = 46.0;
 
-/// Largest number of lines for limits that are too far away to be shown.
+/// Largest number of lines for limits, and for curves, that are too far away to be shown.
 const FAR: usize = 3;
 
 /// Smallest distance between the names of two moments.
@@ -81,9 +82,12 @@ pub(super) fn marks(scene: &mut Scene, panel: &Panel, area: &Area) {
     for (y, names) in named {
         scene.write(Text::new(together(&names), (area.left + 6.0, y), SMALL, Ink::Limit));
     }
+    let limits = beyond_limits(panel).len();
     for (i, text) in far(panel).into_iter().enumerate() {
         let y = area.top - 5.0 - i as f64 * (SMALL + 4.0);
-        scene.write(Text::new(text, (area.left + 6.0, y), SMALL, Ink::Limit));
+        let ink = if i < limits { Ink::Limit } else { Ink::Faint };
+        let text = shortened(&text, SMALL, scene.size.0 - area.left - 20.0);
+        scene.write(Text::new(text, (area.left + 6.0, y), SMALL, ink));
     }
     moments(scene, panel, area);
 }
@@ -97,18 +101,46 @@ fn together(names: &[&str]) -> String {
     }
 }
 
-/// Texts on limits that are too far away to be shown.
-pub(crate) fn far(panel: &Panel) -> Vec<String> {
-    let (low, high) = range::upward(panel);
-    let text = |limit: &Level| {
-        let way = if limit.value > f64::midpoint(low, high) { "above" } else { "below" };
-        format!("{}, {way} the range shown", limit.name)
+/// Texts on limits, curves and dots that are too far away to be shown, limits first.
+pub fn far(panel: &Panel) -> Vec<String> {
+    let curves = at_most(FAR, beyond_curves(panel), "curves");
+    beyond_limits(panel).into_iter().chain(curves).collect()
+}
+
+fn beyond_limits(panel: &Panel) -> Vec<String> {
+    let text = |limit: &Level| format!("{}, {}", limit.name, way(panel, limit.value));
+    at_most(FAR, range::far(panel).map(text).collect(), "limits")
+}
+
+fn beyond_curves(panel: &Panel) -> Vec<String> {
+    let told = |value: f64| format!("{} {}", short(value), printed(&panel.y.unit));
+    let text = |curve: &Curve| {
+        if range::is_far(panel, curve) {
+            let end = curve.points.iter().rev().map(|point| point.1).find(|y| y.is_finite())?;
+            return Some(format!("{} at {}, {}", curve.name, told(end), way(panel, end)));
+        }
+        let (count, farthest) = range::outliers(panel, curve)?;
+        let (all, name) = (curve.points.len(), &curve.name);
+        let what = format!("dots of {name} outside of the range shown: {count} of {all}");
+        Some(format!("{what}, the farthest at {}", told(farthest)))
     };
-    let mut texts: Vec<String> = range::far(panel).map(text).collect();
-    if texts.len() > FAR {
-        let more = texts.len() - FAR + 1;
-        texts.truncate(FAR - 1);
-        texts.push(format!("and {more} more limits beyond the range shown"));
+    panel.curves.iter().filter_map(text).collect()
+}
+
+/// The direction of a value that is not shown.
+fn way(panel: &Panel, value: f64) -> &'static str {
+    let (low, high) = range::upward(panel);
+    match value > f64::midpoint(low, high) {
+        true => "above the range shown",
+        false => "below the range shown",
+    }
+}
+
+fn at_most(most: usize, mut texts: Vec<String>, what: &str) -> Vec<String> {
+    if texts.len() > most {
+        let more = texts.len() - most + 1;
+        texts.truncate(most - 1);
+        texts.push(format!("and {more} more {what} beyond the range shown"));
     }
     texts
 }

@@ -1,7 +1,7 @@
 //! Names at the ends of curves, which identify them without legend and colour.
 
 use super::area::{Area, NAME, shortened};
-use super::curves;
+use super::{curves, range};
 use crate::figure::{Panel, Scale};
 use crate::ink::Ink;
 use crate::scene::{Dash, Scene, Stroke, Text, circle, line};
@@ -72,7 +72,8 @@ fn ends<'a>(panel: &'a Panel, area: &Area) -> Vec<Label<'a>> {
         let ink = curves::ink(curve, place);
         let known = labels.iter().any(|label| label.name == curve.name && label.ink == ink);
         let last = curve.points.iter().rev().find(|point| panel.shows(**point));
-        if let (Some(&(x, y)), false, false) = (last, known, curve.name.is_empty()) {
+        let unnamed = curve.name.is_empty() || range::is_far(panel, curve);
+        if let (Some(&(x, y)), false, false) = (last, known, unnamed) {
             let end = (area.x_at(x), area.y_at(y));
             labels.push(Label { name: &curve.name, ink, end, y: end.1 });
         }

@@ -114,22 +114,61 @@ fn texts_keep_to_their_room() {
     assert!(short.ends_with('\u{2026}') && width(&short, 12.0, false) <= 80.0, "{short}");
 }
 
-/// The one outlier among 100000 measured values is drawn, and the file stays small.
+fn steps(scene: &Scene) -> Vec<Step> {
+    let paths = scene.shapes.iter().filter_map(|shape| match shape {
+        Shape::Path(path) if path.tip.is_some() => Some(path.steps.clone()),
+        _ => None,
+    });
+    paths.flatten().collect()
+}
+
+fn dotted(points: Vec<(f64, f64)>, across: Axis) -> Scene {
+    let mut panel = Panel::new(across, Axis::linear("difference", "K"));
+    panel.curves.push(Curve::line("ring", points).looks(Look::Dots));
+    scene(&[Figure { panels: vec![panel], ..Figure::default() }], 760.0)
+}
+
+/// The one outlier among 100000 measured values is a triangle at the edge and in words, the other
+/// values keep their scale, and the file stays small.
 #[test]
 fn no_dot_that_sticks_out_is_lost() {
     let value = |i: u32| if i == 54_321 { 7.0 } else { 0.01 * f64::from(i % 7) };
-    let points: Vec<(f64, f64)> = (0..100_000).map(|i| (f64::from(i), value(i))).collect();
-    let mut panel = Panel::new(Axis::time(), Axis::linear("difference", "K"));
-    panel.curves.push(Curve::line("ring", points).looks(Look::Dots));
-    let scene = scene(&[Figure { panels: vec![panel], ..Figure::default() }], 760.0);
-    let paths = scene.shapes.iter().filter_map(|shape| match shape {
-        Shape::Path(path) => Some(&path.steps),
-        Shape::Text(_) => None,
-    });
+    let scene = dotted((0..100_000).map(|i| (f64::from(i), value(i))).collect(), Axis::time());
+    let steps = steps(&scene);
     let dot = |step: &Step| if let Step::Circle((_, y), _) = *step { Some(y) } else { None };
-    let dots: Vec<f64> = paths.flatten().filter_map(dot).collect();
-    assert_eq!(dots.iter().filter(|y| **y < 100.0).count(), 1, "{dots:?}");
+    let dots: Vec<f64> = steps.iter().filter_map(dot).collect();
+    assert_eq!(steps.iter().filter(|step| **step == Step::Close).count(), 1, "a triangle");
     assert!((100..1000).contains(&dots.len()), "{}", dots.len());
+    let (top, bottom) =
+        dots.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), y| (a.min(*y), b.max(*y)));
+    assert!(bottom - top > 200.0, "they are flat: {top} to {bottom}");
+    let told = "dots of ring outside of the range shown: 1 of 100000, the farthest at 7.000 K";
+    assert!(texts(&scene).contains(&told), "{:?}", texts(&scene));
+}
+
+/// A scatter over another axis than time has a dot for each point, in order or not.
+#[test]
+fn a_scatter_shows_every_point() {
+    let points = (0..2000).map(|i| (f64::from(i), f64::from(i * 37 % 101))).collect();
+    let scene = dotted(points, Axis::linear("R", "K/W"));
+    let dots = steps(&scene).iter().filter(|step| matches!(step, Step::Circle(..))).count();
+    assert_eq!(dots, 2000);
+}
+
+/// Space at -270.3 degC is far from a body at 20 to 30 degC; air at 15 degC is near.
+#[test]
+fn a_constant_far_away_is_named_instead_of_drawn() {
+    let mut panel = Panel::new(Axis::time(), Axis::linear("temperature", "degC"));
+    panel.curves.push(Curve::line("body", vec![(0.0, 20.0), (60.0, 30.0)]));
+    for (name, value) in [("space", -270.3), ("air", 15.0)] {
+        let line = Curve::line(name, vec![(0.0, value), (60.0, value)]);
+        panel.curves.push(Curve { aside: true, ..line });
+    }
+    let scene = scene(&[Figure { panels: vec![panel], ..Figure::default() }], 760.0);
+    let texts = texts(&scene);
+    assert!(texts.contains(&"space at \u{2212}270.3 °C, below the range shown"), "{texts:?}");
+    assert!(texts.contains(&"air") && !texts.contains(&"space"), "{texts:?}");
+    assert!(texts.contains(&"20") && !texts.contains(&"\u{2212}100"), "{texts:?}");
 }
 
 #[test]

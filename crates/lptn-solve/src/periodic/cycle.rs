@@ -100,6 +100,7 @@ impl<'a> Cycles<'a> {
             record: RecordedNodes::Nodes(Vec::new()),
             watch: Vec::new(),
             windows: Vec::new(),
+            jumps: None,
             balance: None,
             tolerance,
             ..self.settings.clone()

@@ -1,23 +1,29 @@
 //! `lptn plot`
 
 mod args;
+mod view;
 
 pub(crate) use args::PlotArgs;
 
 use crate::console::Console;
 use crate::drawing::Drawing;
+use lptn_answer::answer::Answer as _;
+use lptn_answer::cycle::CycleQuestion;
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::input::Input;
 use lptn_answer::input::quoted;
 use lptn_answer::plot::{Columns, Source, is_netlist, is_record, overlay};
 use lptn_netlist::RunTime;
+use lptn_plot::Figure;
 use lptn_report::Format;
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::input::Load as _;
 use crate::options::{Scale, Shown, TimeScale};
 use crate::verbs::run::{self, RunArgs};
+use crate::verdict;
 
 pub(crate) fn plot(args: &PlotArgs, console: &Console) -> Result<Exit, Failure> {
     if !args.sources.iter().any(|path| is_netlist(path)) {
@@ -32,7 +38,11 @@ pub(crate) fn plot(args: &PlotArgs, console: &Console) -> Result<Exit, Failure> 
     }
     let here = Drawing::Terminal;
     let drawing = args.output.as_ref().or(console.plot.as_ref()).unwrap_or(&here);
-    console.draw(&[overlay(sources)], drawing)?;
+    let apart = args.view.columns.is_some() && sources.len() > 1;
+    let figures = if apart { facets(sources) } else { vec![overlay(sources)] };
+    let figures: Result<Vec<Figure>, Failure> =
+        figures.into_iter().map(|figure| args.view.of(figure)).collect();
+    console.draw_on(&args.view.canvas(), &figures?, drawing)?;
     if let [path] = args.sources.as_slice() {
         let name = quoted(&path.display().to_string());
         match (is_netlist(path), path.is_dir()) {
@@ -49,12 +59,23 @@ fn nothing_to_run(args: &PlotArgs) -> Result<(), Failure> {
     let times = &args.times;
     let given = [
         ("--set", !args.set.is_empty()),
+        ("--case", args.case.is_some()),
+        ("--periodic", args.periodic),
         (RunTime::Stop.option(), times.stop.is_some()),
         (RunTime::Every.option(), times.every.is_some()),
     ];
     let Some((option, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
     let message = format!("{option} changes a run, and no netlist is among the files");
     Err(Failure::refused("plot::no_netlist", message, "name the netlist instead of its results"))
+}
+
+/// A figure for each source, under its name.
+fn facets(sources: Vec<Source>) -> Vec<Figure> {
+    let titled = |source: Source| {
+        let title = source.name.clone();
+        Figure { title, ..overlay(vec![source]) }
+    };
+    sources.into_iter().map(titled).collect()
 }
 
 /// Reads a record or results, or runs a netlist, which has an exit code.
@@ -83,8 +104,13 @@ fn is_alone(args: &PlotArgs) -> bool {
 
 fn of_netlist(path: &Path, args: &PlotArgs, console: &Console) -> Result<(Source, Exit), Failure> {
     let alone = is_alone(args);
-    let source =
-        crate::options::Source { set: args.set.clone(), ..crate::options::Source::of(path.into()) };
+    let (set, case) = (args.set.clone(), args.case.clone());
+    let source = crate::options::Source { set, case, file: path.into() };
+    let mut input = Input::load(&source)?;
+    input.set_run_times(&args.times)?;
+    if args.periodic {
+        return of_cycle(path, (args, input), console);
+    }
     let scale = Scale { temperature_unit: args.scale.temperature_unit.clone() };
     let args = RunArgs {
         source,
@@ -97,11 +123,34 @@ fn of_netlist(path: &Path, args: &PlotArgs, console: &Console) -> Result<(Source
         at: Vec::new(),
         no_files: true,
         uncertainty: run::uncertainty::UncertaintyArgs::default(),
+        picture: true,
     };
-    let mut input = Input::load(&args.source)?;
-    input.set_run_times(&args.times)?;
     let (answer, _) = run::answer(&args, input, console)?;
     run::messages::beside(&answer, None, console);
     let exit = run::messages::conclude(&answer, false, console);
     Ok((Source::of_run(path, &answer, alone), exit))
+}
+
+/// One cycle of a netlist in periodic steady state.
+fn of_cycle(
+    path: &Path,
+    (args, input): (&PlotArgs, Input),
+    console: &Console,
+) -> Result<(Source, Exit), Failure> {
+    let question = CycleQuestion {
+        period: args.period.clone(),
+        tolerance: None,
+        select: args.select.clone(),
+        temperature_unit: args.scale.temperature_unit.clone(),
+        balance: None,
+        format: Format::Csv,
+        report: false,
+        detail: console.detail,
+    };
+    console.warn(&input.netlist.files, &input.netlist.warnings);
+    let answer = question.ask(Arc::new(input), &console.listening())?;
+    console.warn(answer.run.files(), &answer.beside());
+    let limits = answer.run.limits();
+    let exit = verdict::conclude(&answer.run.judgement(&limits), console);
+    Ok((Source::of_run(path, &answer.run, is_alone(args)), exit))
 }

@@ -45,6 +45,9 @@ pub(crate) struct RunArgs {
     pub(crate) at: Vec<String>,
     #[command(flatten)]
     pub(crate) uncertainty: UncertaintyArgs,
+    /// True if the run is drawn
+    #[arg(skip)]
+    pub(crate) picture: bool,
 }
 
 impl RunArgs {
@@ -59,6 +62,7 @@ impl RunArgs {
             at: self.at.clone(),
             format: self.shown.format,
             report: console.reports(),
+            picture: self.picture || console.plot.is_some(),
             detail: console.detail,
             uncertainty: self.uncertainty.question(),
         }

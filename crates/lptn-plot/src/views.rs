@@ -1,0 +1,158 @@
+//! Other views of figures over time: a part of the time, and days instead of hours.
+
+use crate::figure::{Curve, Figure, Look, Panel, Scale};
+
+/// A day in s.
+const DAY: f64 = 86_400.0;
+
+impl Figure {
+    /// The part of a figure between two times in s. A line ends on its value there.
+    #[must_use]
+    pub fn between(mut self, (from, to): (f64, f64)) -> Self {
+        for panel in self.panels.iter_mut().filter(|panel| panel.x.scale == Scale::Time) {
+            panel.moments.retain(|moment| moment.at >= from && moment.at <= to);
+            panel.curves.iter_mut().for_each(|curve| cut(curve, (from, to)));
+            panel.curves.retain(|curve| !curve.points.is_empty());
+        }
+        self.panels.retain(|panel| !panel.curves.is_empty());
+        self
+    }
+
+    /// The mean of each day, with a band from the lowest to the highest value of the day. Days
+    /// begin at multiples of 24 h. Dots and bands of lines stay as they are.
+    #[must_use]
+    pub fn daily(mut self) -> Self {
+        for panel in self.panels.iter_mut().filter(|panel| panel.x.scale == Scale::Time) {
+            panel.moments.clear();
+            let lines = |curve: &&mut Curve| curve.look != Look::Dots && curve.spread.is_empty();
+            panel.curves.iter_mut().filter(lines).for_each(by_day);
+        }
+        self.note =
+            [self.note.as_str(), "means of days, bands from the lowest to the highest value"]
+                .into_iter()
+                .filter(|text| !text.is_empty())
+                .collect::<Vec<_>>()
+                .join("\n");
+        self
+    }
+
+    /// Multiplies the values of a unit and gives them another one.
+    #[must_use]
+    pub fn in_unit(mut self, unit: &str, (other, factor): (&str, f64)) -> Self {
+        for panel in self.panels.iter_mut().filter(|panel| panel.y.unit == unit) {
+            other.clone_into(&mut panel.y.unit);
+            scale(panel, factor);
+        }
+        self
+    }
+}
+
+fn scale(panel: &mut Panel, factor: f64) {
+    panel.limits.iter_mut().for_each(|limit| limit.value *= factor);
+    for curve in &mut panel.curves {
+        curve.points.iter_mut().for_each(|point| point.1 *= factor);
+        curve
+            .spread
+            .iter_mut()
+            .for_each(|(low, high)| (*low, *high) = (*low * factor, *high * factor));
+    }
+}
+
+/// The value between two points at a time.
+fn between((a, b): ((f64, f64), (f64, f64)), at: f64) -> f64 {
+    if b.0 > a.0 { a.1 + (b.1 - a.1) * (at - a.0) / (b.0 - a.0) } else { b.1 }
+}
+
+/// Keeps the part of a curve between two times.
+fn cut(curve: &mut Curve, (from, to): (f64, f64)) {
+    let times: Vec<f64> = curve.points.iter().map(|point| point.0).collect();
+    let ends = if curve.look == Look::Dots { Vec::new() } else { vec![from, to] };
+    let along = |values: &[f64]| -> Vec<(f64, f64)> {
+        let points: Vec<(f64, f64)> = times.iter().copied().zip(values.iter().copied()).collect();
+        let inside = points.iter().copied().filter(|(x, _)| *x >= from && *x <= to);
+        let mut kept: Vec<(f64, f64)> = inside.collect();
+        for &end in ends.iter().filter(|end| !times.contains(end)) {
+            let pair = points.windows(2).find(|pair| pair[0].0 < end && end < pair[1].0);
+            kept.extend(pair.map(|pair| (end, between((pair[0], pair[1]), end))));
+        }
+        kept.sort_by(|a, b| a.0.total_cmp(&b.0));
+        kept
+    };
+    let side = |of: fn(&(f64, f64)) -> f64| -> Vec<f64> {
+        along(&curve.spread.iter().map(of).collect::<Vec<_>>()).iter().map(|p| p.1).collect()
+    };
+    let spread = match curve.spread.is_empty() {
+        true => Vec::new(),
+        false => side(|s| s.0).into_iter().zip(side(|s| s.1)).collect(),
+    };
+    curve.points = along(&curve.points.iter().map(|point| point.1).collect::<Vec<_>>());
+    curve.spread = spread;
+}
+
+/// Mean, lowest and highest value of a line in each day.
+fn by_day(curve: &mut Curve) {
+    let (Some(first), Some(last)) = (curve.points.first(), curve.points.last()) else { return };
+    let (start, stop) = ((first.0 / DAY).floor(), last.0);
+    let mut days: Vec<((f64, f64), (f64, f64))> = Vec::new();
+    let mut day = start;
+    while day * DAY < stop {
+        let span = (day * DAY, (day + 1.0) * DAY);
+        let from = curve.points.partition_point(|point| point.0 < span.0).saturating_sub(1);
+        let to = curve.points.partition_point(|point| point.0 <= span.1);
+        let near = curve.points[from..curve.points.len().min(to + 1)].to_vec();
+        let mut part = Curve::line("", near);
+        cut(&mut part, span);
+        days.extend(of_day(&part.points));
+        day += 1.0;
+    }
+    (curve.points, curve.spread) = days.into_iter().unzip();
+    curve.aside = false;
+}
+
+/// The middle and the mean of a line over a day, and its extremes.
+fn of_day(points: &[(f64, f64)]) -> Option<((f64, f64), (f64, f64))> {
+    let (first, last) = (points.first()?, points.last()?);
+    let length = last.0 - first.0;
+    let area: f64 =
+        points.windows(2).map(|p| (p[1].0 - p[0].0) * f64::midpoint(p[0].1, p[1].1)).sum();
+    let ends = points
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.1), high.max(p.1)));
+    (length > 0.0).then(|| ((f64::midpoint(first.0, last.0), area / length), ends))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::figure::{Axis, Curve, Figure, Panel};
+
+    fn figure(points: Vec<(f64, f64)>) -> Figure {
+        let mut panel = Panel::new(Axis::time(), Axis::linear("heat", "J"));
+        panel.curves.push(Curve::line("a", points));
+        Figure { panels: vec![panel], ..Figure::default() }
+    }
+
+    #[test]
+    fn a_part_ends_on_its_line() {
+        let part = figure(vec![(0.0, 0.0), (10.0, 20.0), (20.0, 0.0)]).between((5.0, 15.0));
+        assert_eq!(part.panels[0].curves[0].points, [(5.0, 10.0), (10.0, 20.0), (15.0, 10.0)]);
+        assert!(figure(vec![(0.0, 1.0), (1.0, 1.0)]).between((5.0, 6.0)).panels.is_empty());
+    }
+
+    /// A ramp of 24 a day, then a day at 24: means of 12 and 24.
+    #[test]
+    fn days_have_their_mean_and_their_extremes() {
+        let day = 86_400.0;
+        let days = figure(vec![(0.0, 0.0), (day, 24.0), (2.0 * day, 24.0)]).daily();
+        let curve = &days.panels[0].curves[0];
+        assert_eq!(curve.points, [(0.5 * day, 12.0), (1.5 * day, 24.0)]);
+        assert_eq!(curve.spread, [(0.0, 24.0), (24.0, 24.0)]);
+    }
+
+    /// 1 kWh is 3.6 MJ by definition.
+    #[test]
+    fn an_energy_takes_another_unit() {
+        let energy = figure(vec![(0.0, 7.2e6)]).in_unit("J", ("kWh", 1.0 / 3.6e6));
+        assert_eq!(energy.panels[0].y.unit, "kWh");
+        assert!((energy.panels[0].curves[0].points[0].1 - 2.0).abs() < 1e-12);
+    }
+}
