@@ -11,12 +11,12 @@ pub(crate) fn are(words: Vec<OsString>) {
     drop(WORDS.set(words));
 }
 
-/// The name of the program and the words behind it.
+/// The name of the program and the words after it.
 pub(crate) fn all() -> &'static [OsString] {
     WORDS.get().map_or(&[], Vec::as_slice)
 }
 
-/// The words behind the name of the program.
+/// The words after the name of the program.
 pub(crate) fn words() -> Vec<String> {
     all().iter().skip(1).map(|word| word.to_string_lossy().into_owned()).collect()
 }
