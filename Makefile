@@ -12,7 +12,7 @@
 #              METAMORPHIC_FROM (1000) on, about an hour on two cores; the smallest network that differs is printed
 # make fuzz    feeds six readers with inputs guided by coverage, FUZZ_MINUTES (5) each; fuzz/run says how
 # make dist    packs one program that runs on any Linux for x86-64, with manual pages, completions and networks, and a
-#              Python wheel of it: target/dist and target/wheels. See docs/install.md
+#              Python wheel: target/dist and target/wheels. See docs/install.md
 # make wheel   packs the Python module and the program in one wheel, target/wheels: pip install target/wheels/lptn-*.whl
 # make test-wheel   the same, installs it into an empty environment and runs the tests of the package
 # make book    installs mdBook if it is missing and builds docs/ as a book, target/book/index.html, equations as MathML
@@ -34,7 +34,7 @@ build: setup
 dist:
 	@./.ci/dist
 
-wheel: build
+wheel: setup
 	@./.ci/wheel
 
 test-wheel: wheel

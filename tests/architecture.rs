@@ -25,8 +25,8 @@ const ORDER: [&str; 21] = [
     "lptn-graph",
     "lptn-answer",
     "lptn",
-    "lptn-python",
     "lptn-cli",
+    "lptn-python",
 ];
 
 /// What a crate may not use although it stands before it.

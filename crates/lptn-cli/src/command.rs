@@ -8,6 +8,7 @@ use lptn_netlist::{Diagnostic, Files};
 use lptn_units::suggest;
 
 use crate::args::{Always, Args};
+use crate::arguments;
 use crate::console::Console;
 use crate::drawing::terminal_width;
 use crate::options::{Color, Global, TEMPLATE};
@@ -35,16 +36,16 @@ pub(crate) fn command() -> clap::Command {
 pub(crate) fn parsed() -> Result<Args, clap::Error> {
     match of_first_word() {
         Some(matches) => Args::from_arg_matches(&matches),
-        None => Args::from_arg_matches(&command().try_get_matches()?),
+        None => Args::from_arg_matches(&command().try_get_matches_from(arguments::all())?),
     }
 }
 
 /// The same by a parser of one verb: building all takes as long as a small run.
 /// `None` if the first word is not a verb, if something is wrong, or if help is requested.
 fn of_first_word() -> Option<ArgMatches> {
-    let verb = std::env::args_os().nth(1)?.into_string().ok()?;
+    let verb = arguments::all().get(1)?.to_str()?;
     let parser = Always::augment_args(Command::new("lptn"));
-    parser.subcommand(Verb::parser(&verb)?).try_get_matches().ok()
+    parser.subcommand(Verb::parser(verb)?).try_get_matches_from(arguments::all()).ok()
 }
 
 /// Prints why a command line cannot be understood, or the help that it asks for.
@@ -127,7 +128,7 @@ fn no_such_option(error: &clap::Error) -> Option<Diagnostic> {
 fn verb_words() -> Vec<String> {
     let mut command = Args::command();
     let mut words = Vec::new();
-    for word in std::env::args().skip(1) {
+    for word in arguments::words() {
         let Some(inner) = command.find_subcommand(&word).cloned() else { continue };
         words.push(word);
         command = inner;
@@ -159,7 +160,7 @@ fn verbs_with(option: &str) -> Vec<String> {
 /// A word too many: a value without its `=`, a quantity without quotes, a second netlist.
 fn word_too_many(error: &clap::Error) -> Option<Diagnostic> {
     let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidArg) else { return None };
-    let words: Vec<String> = std::env::args().skip(1).collect();
+    let words = arguments::words();
     if error.kind() != ErrorKind::UnknownArgument || word.starts_with('-') {
         return None;
     }
@@ -226,7 +227,7 @@ fn near_verb(word: &str) -> Option<Diagnostic> {
     let near = suggest(word, command.get_subcommands().map(clap::Command::get_name))?;
     let problem = Diagnostic::error("input::no_verb", format!("there is no command `{word}`"));
     let help =
-        if std::env::args().nth(1).is_some_and(|word| word == "help") { "help " } else { "" };
+        if arguments::words().first().is_some_and(|word| word == "help") { "help " } else { "" };
     Some(problem.help(format!("did you mean `lptn {help}{near}`?")))
 }
 

@@ -9,13 +9,20 @@ use clap_complete::env::CompleteEnv;
 use lptn_netlist::{Netlist, library};
 use lptn_solve::Selection;
 
+use crate::arguments;
 use crate::input::Load as _;
 use crate::options::Source;
 use lptn_answer::input::Input;
 
 /// Answers a shell that asks for completions, and then ends the program.
 pub(crate) fn answer_shell(command: fn() -> Command) {
-    CompleteEnv::with_factory(move || with_names(command())).complete();
+    let completion = CompleteEnv::with_factory(move || with_names(command()));
+    let here = std::env::current_dir().ok();
+    match completion.try_complete(arguments::all(), here.as_deref()) {
+        Ok(false) => {}
+        Ok(true) => std::process::exit(0),
+        Err(error) => error.exit(),
+    }
 }
 
 /// The same command with completion of the names that its options take.
@@ -50,7 +57,7 @@ fn completed(arg: Arg, names: fn() -> Vec<String>) -> Arg {
 
 /// The first netlist among the words, if it can be read.
 fn netlist() -> Option<Netlist> {
-    let mut words = std::env::args_os().map(PathBuf::from);
+    let mut words = arguments::all().iter().map(PathBuf::from);
     let file = words.find(|word| word.extension().is_some_and(|end| end == "toml"))?;
     Some(Input::load(&Source::of(file)).ok()?.netlist)
 }

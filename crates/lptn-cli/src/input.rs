@@ -4,7 +4,7 @@ use lptn_answer::belief::Belief;
 use lptn_answer::failure::Failure;
 use lptn_answer::input::Input;
 
-use crate::files;
+use crate::arguments;
 use crate::options::{Source, Times};
 
 /// Reads the netlist of a command line.
@@ -26,7 +26,7 @@ impl Load for Input {
 
     fn load_from(source: &Source, belief: &Belief<'_>) -> Result<Self, Failure> {
         let input = Self::open(&source.file, belief, source.settings())?;
-        Ok(Self { command: files::arguments(), ..input })
+        Ok(Self { command: arguments::words(), ..input })
     }
 
     fn set_run_times(&mut self, times: &Times) -> Result<(), Failure> {

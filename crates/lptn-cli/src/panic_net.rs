@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use lptn_netlist::Diagnostic;
 
+use crate::arguments;
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::input::quoted;
@@ -30,10 +31,7 @@ pub(crate) fn caught(work: impl FnOnce() -> Result<Exit, Failure>) -> Result<Exi
     drop(take_hook());
     outcome.unwrap_or_else(|_| {
         let what = first.lock().unwrap_or_else(PoisonError::into_inner).take();
-        Err(Failure::new(
-            Exit::Failed,
-            fault(&what.unwrap_or_default(), std::env::args_os().skip(1)),
-        ))
+        Err(Failure::new(Exit::Failed, fault(&what.unwrap_or_default(), arguments::words())))
     })
 }
 
@@ -48,9 +46,9 @@ fn described(panic: &PanicHookInfo<'_>) -> String {
 }
 
 /// The message to the user, with the facts that developers need.
-fn fault(what: &str, arguments: impl Iterator<Item = std::ffi::OsString>) -> Diagnostic {
+fn fault(what: &str, arguments: Vec<String>) -> Diagnostic {
     let message = format!("lptn has stopped because of a fault in lptn, not in your input: {what}");
-    let words: Vec<String> = arguments.map(|word| quoted(&word.to_string_lossy())).collect();
+    let words: Vec<String> = arguments.iter().map(|word| quoted(word)).collect();
     let (version, os) = (env!("CARGO_PKG_VERSION"), std::env::consts::OS);
     Diagnostic::error("program::fault", message).help(format!(
         "result files of earlier runs are unchanged; do not use the output of this one. Please \
@@ -104,8 +102,8 @@ mod tests {
 
     #[test]
     fn a_report_can_be_pasted() {
-        let arguments = ["run", "my motor.toml", "--set", "P=3W"].map(std::ffi::OsString::from);
-        let help = fault("what", arguments.into_iter()).help.unwrap();
+        let arguments = ["run", "my motor.toml", "--set", "P=3W"].map(str::to_owned);
+        let help = fault("what", arguments.to_vec()).help.unwrap();
         assert!(help.ends_with("\nlptn run 'my motor.toml' --set 'P=3W'"), "{help}");
         assert!(help.contains(concat!("\nlptn ", env!("CARGO_PKG_VERSION"))), "{help}");
     }

@@ -6,6 +6,7 @@ use lptn_netlist::{Diagnostic, Files, Severity};
 use lptn_report::JsonWriter;
 use serde_json::Value;
 
+use crate::arguments;
 use lptn_answer::exit::Exit;
 use lptn_answer::messages;
 
@@ -20,8 +21,7 @@ pub(crate) struct Refusal {
 impl Refusal {
     /// One to fill if JSON was requested.
     pub(crate) fn wanted() -> Option<Self> {
-        let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
-        is_json(&words.collect::<Vec<_>>()).then(Self::default)
+        is_json(&arguments::words()).then(Self::default)
     }
 
     /// Keeps diagnostics.

@@ -25,16 +25,20 @@ pub(crate) fn answered(
     given: &Bound<'_, PyDict>,
 ) -> PyResult<Answer> {
     let is_parameter = |name: &str| net.is_some_and(|net| is_parameter(net, name));
-    let words = Words::sorted(&verb.declared, given, &is_parameter)?;
-    let hearing = Hearing::default();
+    let given = given.copy()?;
+    let told = given.get_item("progress")?.filter(|told| !told.is_none());
+    given.del_item("progress").ok();
+    let words = Words::sorted(&verb.declared, &given, &is_parameter)?;
+    let hearing = Hearing::telling(told.map(Bound::unbind));
     let asked = Asked { net, files, listener: &hearing };
     let work = || (verb.ask)(&asked, &words);
     let is_soon = verb.declared.name == "steady" && !words.flag("periodic");
     let outcome = if is_soon { soon(py, work) } else { hearing.watch(py, work) };
-    outcome.map(Answer::of).map_err(|trouble| told(py, trouble, &hearing))
+    outcome.map(Answer::of).map_err(|trouble| raised_by(py, trouble, &hearing))
 }
 
-fn told(py: Python<'_>, trouble: Trouble, hearing: &Hearing) -> PyErr {
+/// The exception of a trouble, with the doubts that were heard before it.
+pub(crate) fn raised_by(py: Python<'_>, trouble: Trouble, hearing: &Hearing) -> PyErr {
     match trouble {
         Trouble::Failure(failure) => raised(py, &failure, &hearing.doubts()),
         Trouble::Python(error) => error,

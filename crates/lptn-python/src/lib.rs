@@ -3,13 +3,17 @@
 //! Python calls one function for every question of the command line: [`asking::ask`]. It finds the
 //! declaration of the question ([`verbs`]), sorts keyword arguments into options and parameters
 //! ([`words`]), and computes without Python's lock. The answer keeps everything; Python asks it for
-//! JSON, columns and pictures when it needs them. Classes for users are in `python/lptn`.
+//! JSON, columns and pictures when it needs them. Classes for users are in `python/lptn`. The
+//! program of the wheel is one call ([`program`]).
 
 mod answer;
 mod asking;
 mod declaration;
+mod gradient;
 mod netlist;
+mod program;
 mod questions;
+mod sections;
 mod simulation;
 mod subject;
 mod trouble;
@@ -25,7 +29,13 @@ mod module {
     #[pymodule_export]
     use super::asking::{ask, questions};
     #[pymodule_export]
+    use super::gradient::Gradient;
+    #[pymodule_export]
     use super::netlist::{Netlist, unit};
+    #[pymodule_export]
+    use super::program::program;
+    #[pymodule_export]
+    use super::sections::sections;
     #[pymodule_export]
     use super::simulation::Simulation;
 

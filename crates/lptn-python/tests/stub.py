@@ -16,22 +16,30 @@ from collections.abc import Sequence
 from typing import Any, SupportsFloat
 
 from . import _lptn
+from ._messages import Error, Problem
 from ._network import Network
-from ._result import Result
+from ._progress import Told
+from ._result import Explain, Result
 
 # A text, a path, a number, a number with its unit.
 Text = str | os.PathLike[str] | SupportsFloat | tuple[float, str]
 Netlist = str | os.PathLike[str] | Network
 
 def answered(
-    answer: _lptn.Answer, question: str, words: dict[str, Any], level: int
+    answer: _lptn.Answer,
+    question: str,
+    words: dict[str, Any],
+    level: int,
+    explain: Explain | None = None,
 ) -> Result: ...
 def paths(netlists: tuple[Any, ...]) -> list[str]: ...
 def method_name(question: str) -> str: ...
 
 class Questions:
-    _netlist: _lptn.Netlist
     _set: dict[str, Any]
+    @property
+    def _netlist(self) -> _lptn.Netlist: ...
+    def _explain(self, of: Error | list[Problem]) -> None: ...
 '''
 
 
@@ -52,6 +60,7 @@ def method(question):
     lines += [argument(option, kind) for option, kind, _ in options if option != first]
     if sets:
         several = " | Sequence[Text]" if name == "compare" else ""
+        lines.append("        progress: bool | Told = False,\n")
         lines.append("        set: dict[str, Any] | None = None,\n")
         lines.append("        options: dict[str, Any] | None = None,\n")
         lines.append(f"        **parameters: Text{several},\n")

@@ -85,6 +85,20 @@ impl<'a> Adjoint<'a> {
         state: &'a Snapshot,
         node: NodeId,
     ) -> Result<Self, AdjointError> {
+        let mut weights = vec![0.0; system.network().nodes().len()];
+        weights[node.index()] = 1.0;
+        Self::of_sum(system, state, &weights)
+    }
+
+    /// The same of a sum of temperatures, with the weight of each node in K/K.
+    ///
+    /// # Errors
+    /// As [`Adjoint::of`].
+    pub fn of_sum(
+        system: &'a ThermalSystem,
+        state: &'a Snapshot,
+        weights: &[f64],
+    ) -> Result<Self, AdjointError> {
         let linear = Linearised::near(system, state)?;
         let (pattern, mut values) = linear.conductances();
         let counters = (0..system.unknowns().len()).filter(|i| is_counter(system, *i));
@@ -92,7 +106,7 @@ impl<'a> Adjoint<'a> {
         let mut rise = {
             let mut work = system.workspace();
             let mut flow = vec![0.0; system.unknowns().len()];
-            put(system, &mut work, node);
+            put(system, &mut work, weights);
             system.linear_flow(&work, &vec![0.0; flow.len()], &mut flow);
             flow
         };
@@ -108,7 +122,7 @@ impl<'a> Adjoint<'a> {
         }
         .map_err(failed)?;
         let mut work = system.workspace();
-        put(system, &mut work, node);
+        put(system, &mut work, weights);
         system.recover(&mut work, &rise);
         let rise = system.node_temperatures(&work).to_vec();
         let temperatures = [&*state.temperatures, &*state.boundary_temperatures].concat();
@@ -215,12 +229,9 @@ impl<'a> Adjoint<'a> {
     }
 }
 
-/// Heat of 1 W into one node, everything else at 0.
-fn put(system: &ThermalSystem, work: &mut Workspace, node: NodeId) {
-    let network = system.network();
-    let mut heat = vec![0.0; network.nodes().len()];
-    heat[node.index()] = 1.0;
-    system.apply(work, &heat, &vec![0.0; network.boundaries().len()]);
+/// These heats in W into the nodes, everything else at 0.
+fn put(system: &ThermalSystem, work: &mut Workspace, heat: &[f64]) {
+    system.apply(work, heat, &vec![0.0; system.network().boundaries().len()]);
 }
 
 /// The transposed matrix, with its own pattern.

@@ -61,6 +61,7 @@ mod recorder;
 mod replay;
 mod resolve;
 mod response;
+mod result_slopes;
 mod runaway;
 #[cfg(test)]
 mod scripted;
@@ -81,6 +82,7 @@ mod standing;
 mod state;
 mod stateless;
 mod steady;
+mod stencil;
 mod stepper;
 mod stiffness;
 mod stop_reason;
@@ -127,6 +129,7 @@ pub use rate_slopes::{
 };
 pub use rates::{Rates, StateRates};
 pub use response::{Drive, FrequencyResponse, ResponseError, StepAnswer, settled_rises};
+pub use result_slopes::{MarginSlopes, SlopesError};
 pub use runaway::Feedback;
 pub use selection::{RecordedNodes, Selection, name_matches};
 pub use sense::Beyond;

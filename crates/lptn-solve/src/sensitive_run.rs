@@ -182,7 +182,8 @@ pub fn can_move(network: &Network, parameter: ParameterId) -> Result<(), ChangeE
     at(own + step).or_else(|refused| at(own - step).map_err(|_| refused))
 }
 
-fn step(network: &Network, id: ParameterId) -> f64 {
+/// The change of a parameter for a difference.
+pub(crate) fn step(network: &Network, id: ParameterId) -> f64 {
     let parameter = &network.parameters()[id.index()];
     if parameter.ty.absolute {
         return CHANGE_IN_KELVIN;

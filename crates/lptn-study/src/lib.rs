@@ -6,6 +6,8 @@
 //!
 //! [`Ranking`] sorts the values of a network by their effect on one of its temperatures.
 //!
+//! A sweep gives [`Gradients`] of its reports too, for optimisers.
+//!
 //! A [`Manifest`] is next to the results of a run and lists everything that made them: the hash of
 //! every input, the parameters as they were resolved, versions, tolerance, counters of the solver,
 //! the energy ledger and the hash of every result. Time and host, which change from run to run, are
@@ -15,6 +17,7 @@
 mod compare;
 mod digest;
 mod gears;
+mod gradient;
 mod manifest;
 mod moment;
 mod rank;
@@ -30,6 +33,7 @@ pub use compare::{
 };
 pub use digest::{Hashing, sha256};
 pub use gears::{GearError, GearPoint, GearState, GearTask, MemberState, MeshTeeth, PartLoss};
+pub use gradient::{GradientError, Gradients};
 pub use manifest::{Environment, FileHash, Manifest, ParameterRecord, RunEnd, Sundials};
 pub use moment::utc;
 pub use rank::{RankError, Ranking, effect};

@@ -8,6 +8,7 @@
 )]
 
 mod common;
+mod gradient;
 mod rank;
 mod size;
 mod size_choices;

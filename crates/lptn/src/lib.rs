@@ -55,7 +55,7 @@ pub use lptn_answer::{
     graph::{GraphAnswer, GraphQuestion},
     impedance::{Form as ImpedanceForm, ImpedanceAnswer, ImpedanceQuestion},
     infer::{InferAnswer, InferQuestion},
-    input::{Input, quantity},
+    input::{Input, quantity, tolerance},
     limits::Verdict,
     listener::{Listener, Nobody, Which},
     loaded::Loaded,
@@ -92,6 +92,7 @@ pub use lptn_solve::{
 };
 
 /// Networks and netlists.
+pub use lptn_netlist::format as netlist_format;
 pub use lptn_netlist::{
     CsvOptions, Diagnostic, Files, Label, Netlist, ReadError, Rejected, Severity, Span, parse, read,
 };
@@ -108,7 +109,7 @@ pub use lptn_units::{
 /// Reduction, fits and studies on numbers.
 pub use lptn_fit::{law, network as network_fit, step};
 pub use lptn_reduce::{Definition, Judge, Reduction, ReductionOptions, fit_exponential};
-pub use lptn_study::{Candidate, SortKey};
+pub use lptn_study::{Candidate, Gradients, SortKey};
 
 /// The names that a program uses most often.
 pub mod prelude {

@@ -80,6 +80,13 @@ pub struct SweepAsked {
     pub ranged: bool,
 }
 
+impl SweepAsked {
+    /// The candidates, each solved alone; it has their gradients too.
+    pub fn task(&self) -> &SweepTask {
+        &self.task
+    }
+}
+
 /// The study of this name, or the only one.
 ///
 /// # Errors

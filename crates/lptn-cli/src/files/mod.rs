@@ -5,6 +5,7 @@ mod commit;
 mod lock;
 pub(crate) mod names;
 
+use crate::arguments;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -111,16 +112,11 @@ pub(crate) fn manifest(inputs: &[FileHash], results: &[FileHash], wall_time: f64
     json!({
         "format": 1,
         "lptn": env!("CARGO_PKG_VERSION"),
-        "arguments": arguments(),
+        "arguments": arguments::words(),
         "inputs": inputs,
         "results": results,
         "environment": environment(wall_time, &[]),
     })
-}
-
-/// The words of the command line.
-pub(crate) fn arguments() -> Vec<String> {
-    std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect()
 }
 
 /// Writes a file at once and whole, and replaces one that exists.

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use lptn_units::{Degree, Type};
+use lptn_units::{Degree, Program, Type};
 
 use crate::evaluation::Evaluation;
-use crate::id::{ConductorId, End, Field, Item, LimitId, ReportId};
+use crate::id::{ConductorId, End, Field, Item, LimitId, NodeId, ReportId};
 use crate::input_error::{InputError, InputProblem};
 use crate::network::Network;
 use crate::parts::functional::{Functional, History, OverTime};
@@ -172,6 +172,18 @@ impl Network {
         let value =
             self.number(Item::Report(id), Field::Value, &self.reports()[id.index()].value, scope)?;
         Ok(value + 0.0) // no `-0` in columns
+    }
+
+    /// The nodes whose temperatures determine a value, if nothing else does: no parameter, time, heat
+    /// flow or boundary.
+    pub fn nodes_alone(&self, value: &Value) -> Option<Vec<NodeId>> {
+        let node = |slot| match self.parts.layout.holds(slot) {
+            Holds::Temperature(End::Node(id)) => Some(id),
+            _ => None,
+        };
+        let conditional = |p: &Arc<Program>| !p.comparisons().is_empty();
+        let plain = !value.programs().into_iter().any(conditional);
+        value.slots().into_iter().map(node).collect::<Option<_>>().filter(|_| plain)
     }
 
     /// The heat flows that expressions of results name, in the order in which

@@ -7,19 +7,24 @@
     print(run["steel.T"].max(), run["steel.T"].unit, run.limits, run.doubts)
 """
 
-from __future__ import annotations
-
-from typing import Any
-
 from ._lptn import __version__
-from ._messages import Doubt, Error, Fix, Place, Problem
-from ._network import Network, Simulation, asked, load, parse
-from ._result import Result, Table
+
+# for checkers of types; the rest is imported when it is used, so that the program starts quickly
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from ._functions import check, compare, fit_compare, fit_law, fit_step, size
+    from ._gradient import Function
+    from ._help import help
+    from ._messages import Doubt, Error, Fix, Made, Place, Problem
+    from ._network import Network, Simulation, load, parse
+    from ._result import Result, Table
 
 __all__ = [
     "Doubt",
     "Error",
     "Fix",
+    "Function",
+    "Made",
     "Network",
     "Place",
     "Problem",
@@ -32,37 +37,32 @@ __all__ = [
     "fit_compare",
     "fit_law",
     "fit_step",
+    "help",
     "load",
     "parse",
     "size",
 ]
 
-
-def check(file: Any, **words: Any) -> Result:
-    """Checks a netlist and shows all its problems; `result.ok` is false if there are errors."""
-    return asked("check", [file], words)
-
-
-def compare(*netlists: Any, **words: Any) -> Result:
-    """Compares designs: `lptn.compare("a.toml", "b.toml", sort="peak")`."""
-    return asked("compare", list(netlists), words)
-
-
-def size(**words: Any) -> Result:
-    """Finds the flow that removes a heat: power, limit and ambient, perhaps rise."""
-    return asked("size", [], words)
+_MODULES = {
+    "_functions": ["check", "compare", "fit_compare", "fit_law", "fit_step", "size"],
+    "_gradient": ["Function"],
+    "_help": ["help"],
+    "_messages": ["Doubt", "Error", "Fix", "Made", "Place", "Problem"],
+    "_network": ["Network", "Simulation", "load", "parse"],
+    "_result": ["Result", "Table"],
+}
+_HOME = {name: module for module, names in _MODULES.items() for name in names}
 
 
-def fit_step(record: Any, **words: Any) -> Result:
-    """Fits one exponential to a record, or several (`terms`)."""
-    return asked("fit step", [], {"record": record, **words})
+def __getattr__(name: str) -> object:
+    if name not in _HOME:
+        raise AttributeError(f"module 'lptn' has no attribute {name!r}")
+    from importlib import import_module
+
+    found = getattr(import_module(f".{_HOME[name]}", __name__), name)
+    globals()[name] = found
+    return found
 
 
-def fit_law(points: Any = None, **words: Any) -> Result:
-    """Fits laws over speed to points or to a folder of records."""
-    return asked("fit law", [], {"points": points, **words})
-
-
-def fit_compare(*netlists: Any, **words: Any) -> Result:
-    """Chooses between networks by their records."""
-    return asked("fit compare", list(netlists), words)
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

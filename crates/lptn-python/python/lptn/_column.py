@@ -47,20 +47,45 @@ class Column(np.ndarray):
         """The SI unit of the values."""
         return _lptn.unit(self.unit or "1")[2]
 
-    def plot(self, ax: Any = None, **words: Any) -> Any:
-        """Draws the column over time with matplotlib, and returns the axes."""
-        import matplotlib.pyplot as plt
+    def to_pint(self, registry: Any = None) -> Any:
+        """The values as a quantity of pint; `registry` is a `pint.UnitRegistry`."""
+        from ._frames import needed
 
-        ax = plt.gca() if ax is None else ax
+        pint = needed("pint", "to_pint()")
+        registry = pint.get_application_registry() if registry is None else registry
+        return registry.Quantity(np.asarray(self), self.unit)
+
+    def plot(self, ax: Any = None, **words: Any) -> Any:
+        """Draws the column over time with matplotlib, and returns the axes: `ax`, or the present
+        ones if they show the same time.
+        """
+        ax = self._axes(ax)
         words.setdefault("label", self.name)
         values = np.atleast_1d(np.asarray(self))
         if self.index is None:
             ax.plot(values, **words)
         else:
             ax.plot(np.asarray(self.index), values, **words)
-            ax.set_xlabel(f"{self.index.name} [{self.index.unit}]")
+            ax.set_xlabel(self._over)
         ax.set_ylabel(f"{self.name} [{self.unit}]")
         return ax
+
+    @property
+    def _over(self) -> str:
+        return f"{self.index.name} [{self.index.unit}]" if self.index is not None else ""
+
+    def _axes(self, ax: Any) -> Any:
+        """Axes whose time has the same unit."""
+        from ._frames import needed
+
+        plt = needed("matplotlib.pyplot", "plot()")
+        there = ax if ax is not None else plt.gca()
+        shown = there.get_xlabel()
+        if not shown or shown == self._over or not shown.startswith("time ["):
+            return there
+        if ax is not None:
+            raise ValueError(f"the axes show {shown}, the column is over {self._over}")
+        return plt.subplots()[1]
 
     def __repr__(self) -> str:
         if self.ndim == 0:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import csv
 import json
 import os
-import tempfile
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import _lptn
+from ._progress import shown
 from ._questions import answered
 from ._result import Result
 
@@ -28,16 +28,21 @@ def sweep(
     words: dict[str, Any],
 ) -> Result:
     """Solves the rows of a frame: a DataFrame, or a dictionary of columns."""
+    import tempfile
+
     with tempfile.TemporaryDirectory(prefix="lptn-") as folder:
         file = os.path.join(folder, "candidates.csv")
         _write(file, _columns(network, frame))
         lines = ["", "[sweep.frame]", 'method = "csv"', f"file = {json.dumps(file)}"]
         lines += [f"over = {json.dumps(over)}", "[sweep.frame.report]"]
         named = report or _temperatures(network, over)
+        if not isinstance(named, Mapping):
+            raise TypeError('report takes names and results: {"hot": "steel.T"}')
         lines += [f"{name} = {json.dumps(text)}" for name, text in named.items()]
         text, name = network.text
         netlist = _lptn.Netlist.parse(text + "\n".join(lines) + "\n", name, network._set)
-        answer = netlist.ask("sweep", [], {**words, "name": "frame"})
+        with shown(words) as words:
+            answer = netlist.ask("sweep", [], {**words, "name": "frame"})
         return answered(answer, "sweep", words, 3)
 
 

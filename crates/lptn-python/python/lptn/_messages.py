@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import warnings
 from typing import Any
 
@@ -35,8 +36,22 @@ class Fix:
         return self.text if self.place is None else f"{self.place.text} -> {self.text}"
 
 
+class Made:
+    """An entry of a network made in code: section, name, and the line of the program."""
+
+    def __init__(self, section: str, name: str, file: str, line: int) -> None:
+        self.section = section
+        self.name = name
+        self.file = file
+        self.line = line
+
+    def __repr__(self) -> str:
+        return f"{self.section} {self.name}, made at {os.path.basename(self.file)}:{self.line}"
+
+
 class Problem:
-    """A problem: its code, sentence, places, help and fix."""
+    """A problem: its code, sentence, places, help and fix; `made` if it is about an entry of a
+    network made in code."""
 
     def __init__(self, data: dict[str, Any]) -> None:
         self.code: str = data["code"]
@@ -46,10 +61,11 @@ class Problem:
         self.notes: list[str] = data.get("notes", [])
         self.places: list[Place] = [Place(place) for place in data.get("places", [])]
         self.fix: Fix | None = Fix(data["fix"]) if data.get("fix") else None
+        self.made: Made | None = None
 
     def __str__(self) -> str:
         primary = [place for place in self.places if place.primary]
-        where = f"{primary[0]!r}: " if primary else ""
+        where = f"{self.made or primary[0]!r}: " if primary else ""
         help = f"\n  help: {self.help}" if self.help else ""
         return f"{where}{self.message} [{self.code}]{help}"
 
@@ -81,6 +97,10 @@ class Error(Exception):
         self.exit = exit
         self.doubts = doubts or []
         self.result = result
+
+    def refresh(self) -> None:
+        """Writes the text again, after problems were explained."""
+        self.args = ("\n".join(str(error) for error in self.errors),)
 
     @classmethod
     def _of(cls, errors: str, exit: int, doubts: str) -> Error:

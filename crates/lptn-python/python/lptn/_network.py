@@ -3,32 +3,133 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 from . import _lptn
 from ._frame import sweep as frame_sweep
-from ._messages import Problem, problems
+from ._made import Tables, of_text
+from ._made import keys as made_keys
+from ._messages import Error, Problem, problems
 from ._questions import Questions, answered, paths
 from ._result import Result
 
+if TYPE_CHECKING:
+    from ._gradient import Function
+
 
 class Network(Questions):
-    """A network of a netlist: load it by `lptn.load`.
+    """A network: loaded by `lptn.load`, or made in code.
 
     Each question of the command line is a method: `net.run(G_out="4 W/K", stop="2 h")`. A keyword is
     an option of the command or a parameter of the netlist.
+
+        net = lptn.Network("A block in air")
+        net.parameter("P", "40 W")
+        block = net.node("block", C="500 J/K", T0="25 degC")
+        air = net.boundary("air", T="25 degC")
+        net.path("resistor", "cooling", block, air, G="2 W/K")
+        net.source("heat", block, P="P")
+
+    The netlist is checked with the first question. Errors name the entry and the line that made it.
     """
 
-    def __init__(self, netlist: _lptn.Netlist, source: tuple[Any, ...]) -> None:
-        self._netlist = netlist
-        self._source = source
-        self._set = source[-1]
+    def __init__(self, title: str | None = None, *, name: str = "network.toml") -> None:
+        tables = Tables(name, {})
+        if title is not None:
+            tables.top("title", title)
+        self._of_tables(tables)
+
+    def _of_tables(self, tables: Tables) -> Network:
+        self._tables: Tables | None = tables
+        self._loaded: _lptn.Netlist | None = None
+        self._source: tuple[Any, ...] = ()
+        self._set = tables.parameters
+        return self
+
+    @classmethod
+    def _of(cls, netlist: _lptn.Netlist, source: tuple[Any, ...]) -> Network:
+        network = cls.__new__(cls)
+        network._tables, network._loaded = None, netlist
+        network._source, network._set = source, source[-1]
+        return network
+
+    @classmethod
+    def from_toml(cls, text: str, /, name: str = "netlist.toml", **parameters: Any) -> Network:
+        """The network of a text, to which entries can be added."""
+        return cls.__new__(cls)._of_tables(of_text(text, name, parameters))
+
+    @property
+    def _netlist(self) -> _lptn.Netlist:
+        return self._loaded if self._loaded is not None else self._entries.netlist
+
+    def _explain(self, of: Error | list[Problem]) -> None:
+        if self._tables is None:
+            return
+        self._tables.explain(of.errors if isinstance(of, Error) else of)
+        if isinstance(of, Error):
+            of.refresh()
+
+    @property
+    def _entries(self) -> Tables:
+        if self._tables is None:
+            raise TypeError(
+                "a network that was loaded does not change: "
+                "lptn.Network.from_toml(text) makes one that does"
+            )
+        return self._tables
+
+    def add(self, section: str, name: str, value: Any = None, /, **keys: Any) -> str:
+        """Adds an entry to any section of the netlist, and gives its name.
+
+            net.add("material", "steel", k="45 W/(m K)", rho="7850 kg/m^3", cp="470 J/(kg K)")
+
+        A keyword is a key of the entry, with `from_` for `from`. An entry that is one value, such as
+        a parameter, is given as `value`. `lptn.help(section)` lists the keys.
+        """
+        if value is not None and keys:
+            raise TypeError("an entry is one value or has keys")
+        self._entries.add(section, name, made_keys(keys) if value is None else value)
+        return name
+
+    def parameter(self, name: str, value: Any) -> str:
+        """Adds a parameter: a quantity, a number or an expression of other parameters."""
+        return self.add("param", name, value)
+
+    def node(self, name: str, **keys: Any) -> str:
+        """Adds a node: `net.node("steel", C="2659 J/K", T0="25 degC")`."""
+        return self.add("node", name, **keys)
+
+    def boundary(self, name: str, T: Any) -> str:
+        """Adds a boundary with a temperature."""
+        return self.add("boundary", name, T=T)
+
+    def path(self, kind: str, name: str, from_: Any, to: Any, **keys: Any) -> str:
+        """Adds a path of heat: `net.path("convection", "skin", "steel", "air", R="0.3 K/W")`."""
+        return self.add(kind, name, from_=from_, to=to, **keys)
+
+    def source(self, name: str, into: Any, P: Any, **keys: Any) -> str:
+        """Adds a source of heat."""
+        return self.add("source", name, into=into, P=P, **keys)
+
+    def state(self, name: str, **keys: Any) -> str:
+        """Adds a state: `net.state("charge", rate="-I", start="2 A h")`."""
+        return self.add("state", name, **keys)
+
+    def limit(self, name: str, of: Any, **keys: Any) -> str:
+        """Adds a limit: `net.limit("hot", "steel.T", below="90 degC")`."""
+        return self.add("limit", name, of=of, **keys)
+
+    def settings(self, stop: Any, every: Any = None, **keys: Any) -> None:
+        """Sets the times of runs, [run]."""
+        rows = {"output": {"every": every}} if every is not None else {}
+        for key, value in made_keys({"stop": stop, **rows, **keys}).items():
+            self._entries.add("run", key, value)
 
     @property
     def file(self) -> str | None:
-        """The file; `None` for a text."""
-        return self._source[1] if self._source[0] == "load" else None
+        """The file; `None` for a text or a network made in code."""
+        return self._source[1] if self._source and self._source[0] == "load" else None
 
     @property
     def title(self) -> str:
@@ -52,12 +153,15 @@ class Network(Questions):
         return self._netlist.nodes()
 
     def to_toml(self) -> str:
-        """The flat netlist of the network, as `lptn check --expand` prints it."""
-        return self._netlist.to_toml()
+        """The netlist: the entries that were made, or the flat netlist of one that was loaded, as
+        `lptn check --expand` prints it."""
+        return self._netlist.to_toml() if self._tables is None else self._tables.text
 
     @property
     def text(self) -> tuple[str, str]:
         """The text of the netlist, and its name."""
+        if self._tables is not None:
+            return self._tables.text, self._tables.name
         if self._source[0] == "parse":
             return self._source[1], self._source[2]
         with open(self._source[1], encoding="utf-8") as file:
@@ -85,6 +189,29 @@ class Network(Questions):
             return super().sweep(name, **words)
         return frame_sweep(self, name, over or "steady", report, words)
 
+    def value_and_grad(
+        self,
+        of: str | Sequence[str] | Mapping[str, str],
+        by: str | Sequence[str],
+        *,
+        over: str | None = None,
+        stop: str | None = None,
+        tolerance: str | None = None,
+    ) -> Function:
+        """Results as a function of parameters: `value, gradient = function(x)`.
+
+            hot = net.value_and_grad("max(steel.T)", by=["G_out", "P_7000"])
+            scipy.optimize.minimize(hot, hot.x0, jac=True)
+
+        `of` is an expression of the steady state, or `last`, `max`, `min`, `mean` or `integral` of
+        one over the run, or `margin(LIMIT)` with `over`; a list or a dictionary gives several. The
+        gradient is exact: by the adjoint of a steady state, by sensitivities along a run. `stop` and
+        `tolerance` are those of the run.
+        """
+        from ._gradient import Function
+
+        return Function(self, of, by, over, (stop, tolerance))
+
     def simulation(self) -> Simulation:
         """A simulation of the network, to be stepped."""
         return Simulation(self)
@@ -93,6 +220,8 @@ class Network(Questions):
         return f"<lptn.Network {self.title}>"
 
     def __reduce__(self) -> Any:
+        if self._tables is not None:
+            return (_of_tables, (self._tables,))
         return (_again, self._source)
 
 
@@ -102,17 +231,21 @@ def load(file: str | os.PathLike[str], /, **parameters: Any) -> Network:
     Raises `lptn.Error` with all problems of the netlist.
     """
     name = os.fspath(file)
-    return Network(_lptn.Netlist.read(name, parameters), ("load", name, parameters))
+    return Network._of(_lptn.Netlist.read(name, parameters), ("load", name, parameters))
 
 
 def parse(text: str, /, name: str = "netlist.toml", **parameters: Any) -> Network:
     """Reads a netlist from a text; files that it names are relative to the place of `name`."""
     netlist = _lptn.Netlist.parse(text, name, parameters)
-    return Network(netlist, ("parse", text, name, parameters))
+    return Network._of(netlist, ("parse", text, name, parameters))
 
 
 def _again(how: str, text: str, *rest: Any) -> Network:
     return load(text, **rest[0]) if how == "load" else parse(text, rest[0], **rest[1])
+
+
+def _of_tables(tables: Tables) -> Network:
+    return Network.__new__(Network)._of_tables(tables)
 
 
 def asked(question: str, files: list[Any], words: dict[str, Any]) -> Result:

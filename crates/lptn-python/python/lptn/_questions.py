@@ -3,21 +3,32 @@
 from __future__ import annotations
 
 import os
+from contextlib import nullcontext
 from typing import Any
 
 from . import _lptn
 from ._messages import Error, Problem, warn
-from ._result import Result
+from ._progress import shown
+from ._result import Explain, Result
 
 
-def answered(answer: _lptn.Answer, question: str, words: dict[str, Any], level: int) -> Result:
+def answered(
+    answer: _lptn.Answer,
+    question: str,
+    words: dict[str, Any],
+    level: int,
+    explain: Explain | None = None,
+) -> Result:
     """The result of an answer; doubts are warnings, an answer that is not whole is an error."""
     scalar = question == "steady" and not words.get("periodic")
-    result = Result(answer, question, scalar)
+    result = Result(answer, question, scalar, explain)
     exit = answer.exit()
     if exit > 1:
         errors = [Problem(data) for data in result.data.get("errors", [])]
-        raise Error(errors or [_none(result)], exit, result.doubts, result)
+        error = Error(errors or [_none(result)], exit, result.doubts, result)
+        if explain is not None:
+            explain(error)
+        raise error
     if answer.doubts() is not None:
         warn(result.doubts, level + 1)
     return result
@@ -54,7 +65,13 @@ def _method(name: str, first: str | None, several: bool) -> Any:
             if first is None or len(given) > 1 or first in words:
                 raise TypeError(f"{name}() takes no such argument without a name")
             words[first] = given[0]
-        return answered(self._netlist.ask(name, others, words), name, words, 2)
+        with shown(words) if "progress" in words else nullcontext(words) as words:
+            try:
+                answer = self._netlist.ask(name, others, words)
+            except Error as error:
+                self._explain(error)
+                raise
+        return answered(answer, name, words, 2, self._explain)
 
     return ask
 
@@ -62,8 +79,14 @@ def _method(name: str, first: str | None, several: bool) -> Any:
 class Questions:
     """The questions of the command line, each a method; `_lptn.questions` declares them."""
 
-    _netlist: _lptn.Netlist
     _set: dict[str, Any]
+
+    @property
+    def _netlist(self) -> _lptn.Netlist:
+        raise NotImplementedError
+
+    def _explain(self, of: Error | list[Problem]) -> None:
+        """Names the entries of a network made in code that problems are about."""
 
 
 def _declare() -> None:

@@ -5,26 +5,35 @@ from collections.abc import Sequence
 from typing import Any, SupportsFloat
 
 from . import _lptn
+from ._messages import Error, Problem
 from ._network import Network
-from ._result import Result
+from ._progress import Told
+from ._result import Explain, Result
 
 # A text, a path, a number, a number with its unit.
 Text = str | os.PathLike[str] | SupportsFloat | tuple[float, str]
 Netlist = str | os.PathLike[str] | Network
 
 def answered(
-    answer: _lptn.Answer, question: str, words: dict[str, Any], level: int
+    answer: _lptn.Answer,
+    question: str,
+    words: dict[str, Any],
+    level: int,
+    explain: Explain | None = None,
 ) -> Result: ...
 def paths(netlists: tuple[Any, ...]) -> list[str]: ...
 def method_name(question: str) -> str: ...
 
 class Questions:
-    _netlist: _lptn.Netlist
     _set: dict[str, Any]
+    @property
+    def _netlist(self) -> _lptn.Netlist: ...
+    def _explain(self, of: Error | list[Problem]) -> None: ...
     def check(
         self,
         *netlists: Netlist,
         case: Text | None = None,
+        progress: bool | Told = False,
         set: dict[str, Any] | None = None,
         options: dict[str, Any] | None = None,
         **parameters: Text,
@@ -46,6 +55,7 @@ class Questions:
         samples: int | None = None,
         seed: int | None = None,
         threads: int | None = None,
+        progress: bool | Told = False,
         set: dict[str, Any] | None = None,
         options: dict[str, Any] | None = None,
         **parameters: Text,
@@ -61,6 +71,7 @@ class Questions:
         periodic: bool = False,
         period: Text | None = None,
         tolerance: Text | None = None,
+        progress: bool | Told = False,
         set: dict[str, Any] | None = None,
         options: dict[str, Any] | None = None,
         **parameters: Text,
@@ -72,6 +83,7 @@ class Questions:
         case: Text | None = None,
         count: int | None = None,
         at: Text | None = None,
+        progress: bool | Told = False,
         set: dict[str, Any] | None = None,
         options: dict[str, Any] | None = None,
         **parameters: Text,
@@ -83,6 +95,7 @@ class Questions:
         case: Text | None = None,
         tolerance: Text | None = None,
         at: Text | None = None,
+        progress: bool | Told = False,
         set: dict[str, Any] | None = None,
         options: dict[str, Any] | None = None,
         **parameters: Text,
@@ -99,6 +112,7 @@ class Questions:
         sort: Text | None = None,
         temperature_unit: Text | None = None,
         threads: int | None = None,
+        progress: bool | Told = False,
         set: dict[str, Any] | None = None,
         options: dict[str, Any] | None = None,
         **parameters: Text | Sequence[Text],
@@ -110,6 +124,7 @@ class Questions:
         *,
         posterior: Text | None = None,
         threads: int | None = None,
+        progress: bool | Told = False,
         set: dict[str, Any] | None = None,
         options: dict[str, Any] | None = None,
         **parameters: Text,
@@ -122,6 +137,7 @@ class Questions:
         of: Text | None = None,
         over: Text | None = None,
         temperature_unit: Text | None = None,
+        progress: bool | Told = False,
         set: dict[str, Any] | None = None,
         options: dict[str, Any] | None = None,
         **parameters: Text,
@@ -135,6 +151,7 @@ class Questions:
         temperature_unit: Text | None = None,
         shard: Text | None = None,
         threads: int | None = None,
+        progress: bool | Told = False,
         set: dict[str, Any] | None = None,
         options: dict[str, Any] | None = None,
         **parameters: Text,
@@ -145,6 +162,7 @@ class Questions:
         name: Text | None = None,
         *,
         starts: int | None = None,
+        progress: bool | Told = False,
         set: dict[str, Any] | None = None,
         options: dict[str, Any] | None = None,
         **parameters: Text,
@@ -162,6 +180,7 @@ class Questions:
         self,
         name: Text | None = None,
         *,
+        progress: bool | Told = False,
         set: dict[str, Any] | None = None,
         options: dict[str, Any] | None = None,
         **parameters: Text,
@@ -171,6 +190,7 @@ class Questions:
         self,
         name: Text | None = None,
         *,
+        progress: bool | Told = False,
         set: dict[str, Any] | None = None,
         options: dict[str, Any] | None = None,
         **parameters: Text,
@@ -192,6 +212,7 @@ class Questions:
         window: Text | None = None,
         at: Text | None = None,
         temperature_unit: Text | None = None,
+        progress: bool | Told = False,
         set: dict[str, Any] | None = None,
         options: dict[str, Any] | None = None,
         **parameters: Text,
@@ -209,6 +230,7 @@ class Questions:
         foster: bool | Text | Sequence[Text] = False,
         cauer: bool | Text | Sequence[Text] = False,
         at: Text | None = None,
+        progress: bool | Told = False,
         set: dict[str, Any] | None = None,
         options: dict[str, Any] | None = None,
         **parameters: Text,
@@ -223,6 +245,7 @@ class Questions:
         torque: Text | Sequence[Text] | None = None,
         temperature: Text | Sequence[Text] | None = None,
         temperature_unit: Text | None = None,
+        progress: bool | Told = False,
         set: dict[str, Any] | None = None,
         options: dict[str, Any] | None = None,
         **parameters: Text,

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import html
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from . import _lptn
-from ._messages import Problem, problems
+from ._messages import Error, Problem, problems
 
 if TYPE_CHECKING:
     from ._column import Column
+
+# Names the entries of a network made in code that problems are about.
+Explain = Callable[[Error | list[Problem]], None]
 
 # Most rows of a table in a notebook.
 _SHOWN = 12
@@ -20,7 +23,7 @@ _SHOWN = 12
 class Table:
     """The rows of an answer: columns of numbers with units, and columns of words."""
 
-    def __init__(self, answer: _lptn.Answer, scalar: bool) -> None:
+    def __init__(self, answer: _lptn.Answer | Kept, scalar: bool) -> None:
         self._answer = answer
         self._scalar = scalar
         self._words: dict[str, list[str]] = {}
@@ -90,17 +93,35 @@ class Table:
 
     def to_pandas(self, **words: Any) -> Any:
         """The rows as a pandas DataFrame; headings have the units, times are the index."""
-        import numpy as np
-        import pandas as pd
+        from . import _frames
 
-        def values(name: str) -> Any:
-            return np.atleast_1d(np.asarray(self[name])) if name in self.units else self[name]
+        return _frames.pandas(self, words)
 
-        heads = {name: self._head(name) for name in self.names}
-        frame = pd.DataFrame({heads[name]: values(name) for name in self.names}, **words)
-        return frame.set_index(heads["time"]) if "time" in heads else frame
+    def to_polars(self) -> Any:
+        """The rows as a polars DataFrame; headings have the units."""
+        from . import _frames
 
-    def _head(self, name: str) -> str:
+        return _frames.polars(self)
+
+    def to_arrow(self) -> Any:
+        """The rows as a table of Arrow, for Parquet too; fields have their unit as metadata."""
+        from . import _frames
+
+        return _frames.arrow(self)
+
+    def to_xarray(self, title: str = "") -> Any:
+        """The rows as an xarray Dataset over time; variables have the attribute `units`."""
+        from . import _frames
+
+        return _frames.xarray(self, title)
+
+    @property
+    def is_scalar(self) -> bool:
+        """True if each column is one number, as in a steady state."""
+        return self._scalar
+
+    def head(self, name: str) -> str:
+        """The heading of a column: `steel.T [degC]`."""
         return f"{name} [{self.units[name]}]" if name in self.units else name
 
     def __repr__(self) -> str:
@@ -108,7 +129,7 @@ class Table:
 
     def _repr_html_(self) -> str:
         names = self.names[:_SHOWN]
-        heads = "".join(f"<th>{html.escape(self._head(name))}</th>" for name in names)
+        heads = "".join(f"<th>{html.escape(self.head(name))}</th>" for name in names)
         cells = [list(_cells(self[name])) for name in names]
         rows = list(zip(*cells))
         step = max(1, -(-len(rows) // _SHOWN))
@@ -138,14 +159,71 @@ def _is_number(cell: str) -> bool:
     return True
 
 
+class Kept:
+    """An answer that was pickled: its texts and numbers."""
+
+    def __init__(self, answer: _lptn.Answer | Kept) -> None:
+        self._texts = (answer.json(), answer.text(), answer.csv(), answer.svg(), answer.doubts())
+        self._verdict = (answer.exit(), answer.reasons())
+        self._columns, self._labels = answer.columns(), answer.labels()
+        names = [name for name, _ in self._columns or []]
+        self._numbers = {name: answer.numbers(name) for name in names}
+
+    @classmethod
+    def of(cls, answer: _lptn.Answer | Kept) -> Kept:
+        """The same answer, kept."""
+        return answer if isinstance(answer, Kept) else cls(answer)
+
+    def json(self) -> str:
+        return self._texts[0]
+
+    def text(self) -> str:
+        return self._texts[1]
+
+    def csv(self) -> str:
+        return self._texts[2]
+
+    def svg(self) -> str | None:
+        return self._texts[3]
+
+    def doubts(self) -> str | None:
+        return self._texts[4]
+
+    def exit(self) -> int:
+        return self._verdict[0]
+
+    def reasons(self) -> list[str]:
+        return self._verdict[1]
+
+    def columns(self) -> list[tuple[str, str]] | None:
+        return self._columns
+
+    def labels(self) -> list[tuple[str, list[str]]]:
+        return self._labels
+
+    def numbers(self, name: str) -> bytes | None:
+        return self._numbers.get(name)
+
+
+def _again(kept: Kept, question: str, scalar: bool) -> Result:
+    return Result(kept, question, scalar)
+
+
 class Result:
     """An answer: columns with units, limits, doubts, verdict, and its JSON.
 
     `result["steel.T"]` is a column. `print(result)` prints the table of the command line.
     """
 
-    def __init__(self, answer: _lptn.Answer, question: str, scalar: bool) -> None:
+    def __init__(
+        self,
+        answer: _lptn.Answer | Kept,
+        question: str,
+        scalar: bool,
+        explain: Explain | None = None,
+    ) -> None:
         self._answer = answer
+        self._explain = explain
         self._scalar = scalar
         self._table: Table | None = None
         self._data: dict[str, Any] | None = None
@@ -189,8 +267,20 @@ class Result:
         return self.table.names
 
     def to_pandas(self, **words: Any) -> Any:
-        """The rows as a pandas DataFrame."""
+        """The rows as a pandas DataFrame; headings have the units, times are the index."""
         return self.table.to_pandas(**words)
+
+    def to_polars(self) -> Any:
+        """The rows as a polars DataFrame; headings have the units."""
+        return self.table.to_polars()
+
+    def to_arrow(self) -> Any:
+        """The rows as a table of Arrow, for Parquet too; fields have their unit as metadata."""
+        return self.table.to_arrow()
+
+    def to_xarray(self) -> Any:
+        """The rows as an xarray Dataset over time; variables have the attribute `units`."""
+        return self.table.to_xarray(str(self.data.get("title") or self.question))
 
     @property
     def limits(self) -> dict[str, Any]:
@@ -202,6 +292,8 @@ class Result:
         """Doubts about the numbers."""
         if self._doubts is None:
             self._doubts = problems(self._answer.doubts())
+            if self._explain is not None:
+                self._explain(self._doubts)
         return self._doubts
 
     @property
@@ -219,15 +311,22 @@ class Result:
         return self._answer.svg()
 
     def plot(self, *names: str, ax: Any = None, **words: Any) -> Any:
-        """Draws columns with matplotlib; without names, all temperatures that end with `.T`."""
+        """Draws columns, or all temperatures, with matplotlib: in `ax` or in a new figure."""
+        if ax is None:
+            from ._frames import needed
+
+            ax = needed("matplotlib.pyplot", "plot()").subplots()[1]
         names = names or tuple(name for name in self.table.units if name.endswith(".T"))
         for name in names:
             ax = self[name].plot(ax=ax, **words)
-        if ax is not None and len(names) > 1:
+        if len(names) > 1:
             units = {self.table.units[name] for name in names}
             ax.set_ylabel(" or ".join(f"[{unit}]" for unit in sorted(units)))
             ax.legend()
         return ax
+
+    def __reduce__(self) -> Any:
+        return (_again, (Kept.of(self._answer), self.question, self._scalar))
 
     def __str__(self) -> str:
         return self._answer.text()

@@ -123,12 +123,12 @@ impl SweepTask {
     }
 
     /// The netlist.
-    pub(super) fn netlist(&self) -> &Netlist {
+    pub(crate) fn netlist(&self) -> &Netlist {
         &self.netlist
     }
 
     /// The time in s at which steady states read their inputs.
-    pub(super) fn start(&self) -> f64 {
+    pub(crate) fn start(&self) -> f64 {
         self.netlist.run.as_ref().map_or(0.0, |run| run.start)
     }
 

@@ -14,8 +14,8 @@ use lptn_answer::failure::Failure;
 use lptn_answer::input::{self, Given};
 use lptn_report::{Format, Json, Page, Text};
 
+use crate::arguments;
 use crate::console::Console;
-use crate::files;
 use crate::options::Source;
 use crate::written::proven;
 
@@ -28,7 +28,7 @@ pub(crate) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, Failure
     let question = CheckQuestion {
         case: case.map(str::to_owned),
         set: set.to_vec(),
-        command: files::arguments(),
+        command: arguments::words(),
     };
     let answer = question.ask_text(&text)?;
     console.show(&View { answer: &answer, console }, args.format)?;

@@ -14,6 +14,7 @@ use lptn_study::CompareRow;
 
 pub(crate) use args::CompareArgs;
 
+use crate::arguments;
 use crate::console::Console;
 use crate::files;
 
@@ -31,7 +32,7 @@ pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Fai
         temperature_unit: args.scale.temperature_unit.clone(),
         threads: args.threads,
         detail: console.detail,
-        command: files::arguments(),
+        command: arguments::words(),
     };
     let answer = question.ask(&console.listening())?;
     report(&answer, console);

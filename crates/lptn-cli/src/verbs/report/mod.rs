@@ -46,7 +46,7 @@ pub(crate) fn report(args: &ReportArgs, console: &Console) -> Result<Exit, Failu
             if same { Ok(Exit::Done) } else { Err(Failure::new(Exit::No, problem.help(help))) }
         }
         Err(why) => {
-            let mut report = about::of_command(&[], &crate::files::arguments());
+            let mut report = about::of_command(&[], &crate::arguments::words());
             report.title.clone_from(&figure.title);
             console.message(&format!(
                 "not run again: {why}; the page shows the files of the \

@@ -15,8 +15,8 @@ use lptn_answer::input::{Input, quoted};
 use lptn_answer::size::{CoolingQuestion, SizeQuestion};
 use lptn_report::Format;
 
+use crate::arguments;
 use crate::console::Console;
-use crate::files;
 use crate::input::Load as _;
 use crate::options::Source;
 use crate::written::put;
@@ -36,7 +36,7 @@ impl SizeArgs {
             limit: text(&self.cooling.limit),
             ambient: text(&self.cooling.ambient),
             rise: self.cooling.rise.clone(),
-            command: files::arguments(),
+            command: arguments::words(),
         }
     }
 }

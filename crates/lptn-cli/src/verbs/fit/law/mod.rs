@@ -13,6 +13,7 @@ use lptn_report::{Format, WIDTH, duration, labelled, words};
 
 pub(crate) use args::LawArgs;
 
+use crate::arguments;
 use crate::console::Console;
 use crate::files::{self, Folder};
 use crate::verbs::fit::posterior;
@@ -80,7 +81,7 @@ fn question(args: &LawArgs) -> Result<FitLawQuestion, Failure> {
         reference: Some(args.records.reference.clone()),
         sensor: args.records.sensor.clone(),
         csv: args.csv.options()?,
-        command: files::arguments(),
+        command: arguments::words(),
     })
 }
 

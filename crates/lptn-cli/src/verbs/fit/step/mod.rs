@@ -10,8 +10,8 @@ use lptn_answer::fit::terms::FitTermsQuestion;
 
 pub(crate) use args::StepArgs;
 
+use crate::arguments;
 use crate::console::Console;
-use crate::files;
 use crate::verbs::fit::posterior;
 
 pub(crate) fn step(args: &StepArgs, console: &Console) -> Result<Exit, Failure> {
@@ -32,7 +32,7 @@ pub(crate) fn step(args: &StepArgs, console: &Console) -> Result<Exit, Failure> 
         port: args.port.clone(),
         posterior: args.posterior.is_some(),
         temperature_unit: args.scale.temperature_unit.clone(),
-        command: files::arguments(),
+        command: arguments::words(),
     };
     let answer = question.ask(&args.record, console)?;
     console.page(&answer, args.printed.format)?;
@@ -69,7 +69,7 @@ fn terms(args: &StepArgs, count: &str, console: &Console) -> Result<Exit, Failur
         csv: args.form.options()?,
         power: args.power.clone(),
         terms: number,
-        command: files::arguments(),
+        command: arguments::words(),
     };
     let answer = question.ask(&args.record, console)?;
     console.page(&answer, args.printed.format)?;

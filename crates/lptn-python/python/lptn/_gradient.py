@@ -1,0 +1,168 @@
+"""Results as functions of parameters, with gradients, for optimisers."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _lptn
+from ._messages import Error
+
+if TYPE_CHECKING:
+    from ._network import Network
+
+_OVER_TIME = re.compile(r"\s*(last|max|min|mean|integral)\(([^,]*)\)\s*$")
+_MARGIN = re.compile(r"\s*margin\((.*)\)\s*$")
+
+
+class Function:
+    """Results of a network as a function of parameters: `value, gradient = function(x)`.
+
+    `x` are the values of `parameters` in the units `x_units`. For one result the value is a number
+    and the gradient an array; for several the values are an array, and the gradient has a row for
+    each. `value(x)` and `jac(x)` give one of the two.
+    """
+
+    def __init__(
+        self,
+        network: Network,
+        of: str | Sequence[str] | Mapping[str, str],
+        by: str | Sequence[str],
+        over: str | None,
+        times: tuple[str | None, str | None],
+    ) -> None:
+        texts = _named(of)
+        self.names = list(texts)
+        self.parameters = [by] if isinstance(by, str) else list(by)
+        self.over = over or _over(list(texts.values()))
+        self._one = isinstance(of, str)
+        margins, reports = _split(texts)
+        text = _study(network, self.parameters, reports, self.over)
+        source, name = network.text
+        try:
+            netlist = _lptn.Netlist.parse(f"{source}\n{text}", name, network._set)
+            self._of = _lptn.Gradient(netlist, "lptn_gradient", list(margins.values()), times)
+        except Error as error:
+            _rename(error, list(reports.values()), source.count("\n") + 1)
+            raise
+        order = [*reports, *margins]
+        self._order = [order.index(name) for name in self.names]
+        self.x_units, units = self._of.units()
+        self.units = [units[place] for place in self._order]
+        self._last: tuple[bytes, Any] | None = None
+
+    @property
+    def x0(self) -> np.ndarray:
+        """The values of the parameters in the netlist."""
+        return np.array(self._of.own())
+
+    def __call__(self, x: Any) -> tuple[Any, np.ndarray]:
+        """The value and its gradient."""
+        at = np.atleast_1d(np.asarray(x, dtype=float)).reshape(-1)
+        if self._last is None or self._last[0] != at.tobytes():
+            values, slopes = self._of.at(at.tolist())
+            of = np.array(values)[self._order]
+            by = np.array(slopes).reshape(len(values), len(at))[self._order]
+            self._last = (at.tobytes(), (float(of[0]), by[0]) if self._one else (of, by))
+        value, gradient = self._last[1]
+        return (value if self._one else value.copy()), gradient.copy()
+
+    def value(self, x: Any) -> Any:
+        """The value alone."""
+        return self(x)[0]
+
+    def jac(self, x: Any) -> np.ndarray:
+        """The gradient alone, kept from the last call at the same values."""
+        return self(x)[1]
+
+    def jax(self) -> Any:
+        """A function of JAX, which `jax.grad` and `jax.jacrev` differentiate once."""
+        return _jax(self)
+
+    def __repr__(self) -> str:
+        of = ", ".join(f"{name} [{unit}]" for name, unit in zip(self.names, self.units))
+        by = ", ".join(f"{name} [{unit}]" for name, unit in zip(self.parameters, self.x_units))
+        return f"<lptn.Function {of} of {by}>"
+
+
+def _rename(error: Error, results: list[str], lines: int) -> None:
+    """Problems of the study name the results; places after the user's own text are of no use."""
+    for problem in error.errors:
+        for place, text in enumerate(results):
+            problem.message = problem.message.replace(f"report `lptn_result_{place}`", f"`{text}`")
+        problem.places = [place for place in problem.places if place.line <= lines]
+    error.refresh()
+
+
+def _named(of: str | Sequence[str] | Mapping[str, str]) -> dict[str, str]:
+    if isinstance(of, str):
+        return {of: of}
+    return dict(of) if isinstance(of, Mapping) else {text: text for text in of}
+
+
+def _over(texts: list[str]) -> str:
+    """Over a run if a result is a functional over time."""
+    if any(_OVER_TIME.match(text) for text in texts):
+        return "run"
+    if any(_MARGIN.match(text) for text in texts):
+        raise TypeError('a margin is one of a steady state or of a run: say over="steady" or "run"')
+    return "steady"
+
+
+def _split(texts: dict[str, str]) -> tuple[dict[str, str], dict[str, str]]:
+    found = {name: _MARGIN.match(text) for name, text in texts.items()}
+    margins = {name: match[1].strip() for name, match in found.items() if match}
+    return margins, {name: text for name, text in texts.items() if name not in margins}
+
+
+def _study(network: Network, by: list[str], reports: dict[str, str], over: str) -> str:
+    """A sweep of one candidate: the parameters at their own values, the results as reports."""
+    known = {name: (value, unit) for name, value, unit in network._netlist.parameters()}
+    for name in by:
+        if name not in known:
+            raise TypeError(f"{name} is not a parameter of {network!r}: they are {', '.join(known)}")
+    own = {name: f"{known[name][0]!r} {known[name][1]}".strip() for name in by}
+    axes = [f"{json.dumps(name)} = [{json.dumps(text)}]" for name, text in own.items()]
+    lines = ["[sweep.lptn_gradient]", 'method = "list"', f"over = {json.dumps(over)}"]
+    lines += ["[sweep.lptn_gradient.axes]", *axes, "[sweep.lptn_gradient.report]"]
+    named = [f"lptn_result_{place} = {json.dumps(text)}" for place, text in enumerate(reports.values())]
+    # a study has at least one report
+    return "\n".join([*lines, *(named or ["lptn_result = 0"])]) + "\n"
+
+
+def _jax(function: Function) -> Any:
+    try:
+        import jax
+        import jax.numpy as jnp
+    except ImportError:
+        raise ImportError("a function of JAX needs JAX: pip install jax") from None
+
+    shape = () if function._one else (len(function.names),)
+    size = len(function.parameters)
+
+    def asked(x: Any) -> Any:
+        kind = jnp.result_type(float)
+        shapes = (jax.ShapeDtypeStruct(shape, kind), jax.ShapeDtypeStruct((*shape, size), kind))
+
+        def ask(x: Any) -> Any:
+            value, gradient = function(np.asarray(x))
+            return np.asarray(value, dtype=kind), np.asarray(gradient, dtype=kind)
+
+        return jax.pure_callback(ask, shapes, x, vmap_method="sequential")
+
+    @jax.custom_vjp
+    def value(x: Any) -> Any:
+        return asked(x)[0]
+
+    def forward(x: Any) -> Any:
+        return asked(x)
+
+    def backward(gradient: Any, by: Any) -> Any:
+        return (by @ gradient if shape else by * gradient,)
+
+    value.defvjp(forward, backward)
+    return value

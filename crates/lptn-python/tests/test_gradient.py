@@ -1,0 +1,135 @@
+"""Gradients against closed forms, and with optimisers."""
+
+import importlib.util
+import math
+import unittest
+
+import numpy as np
+
+import lptn
+from test_lptn import GEARBOX
+from test_made import block
+
+STOP = 1800.0
+
+
+def closed(power, conductance):
+    """Last and mean temperature, margin and mean heat of the block over its run."""
+    decay = np.exp(-conductance * STOP / 500)
+    last = 25 + power / conductance * (1 - decay)
+    rise = power / conductance * (1 - 500 / conductance / STOP * (1 - decay))
+    return np.array([last, 25 + rise, 60 - last, conductance * rise])
+
+
+RESULTS = ["last(block.T)", "mean(block.T)", "margin(warm)", "mean(cooling.Q)"]
+
+
+def installed(package):
+    return importlib.util.find_spec(package) is not None
+
+
+class Gradients(unittest.TestCase):
+    def test_a_run_has_its_closed_form(self):
+        function = block().value_and_grad(
+            RESULTS, by=["P", "G"], over="run", tolerance="1e-9 K"
+        )
+        x = np.array([40.0, 2.0])
+        np.testing.assert_array_equal(function.x0, x)
+        values, gradient = function(x)
+        np.testing.assert_allclose(values, closed(*x), rtol=1e-9)
+        for k, h in enumerate([1e-3, 1e-4]):
+            # fourth order: exact to 1e-11 or so
+            side = lambda n: closed(*(x + n * h * np.eye(2)[k]))
+            slope = (8 * (side(1) - side(-1)) - (side(2) - side(-2))) / (12 * h)
+            np.testing.assert_allclose(gradient[:, k], slope, rtol=1e-8)
+        self.assertEqual(function.units, ["degC", "degC", "K", "W"])
+        self.assertEqual(function.x_units, ["W", "W/K"])
+
+    def test_a_steady_state_in_other_units(self):
+        net = lptn.Network.from_toml(block().to_toml().replace('"40 W"', '"0.04 kW"'))
+        # T = 25 degC + P / G
+        value, gradient = net.value_and_grad("block.T", by="P")(0.05)
+        self.assertAlmostEqual(value, 50.0, places=9)
+        self.assertAlmostEqual(gradient[0], 500.0, places=7)
+
+    def test_a_thousand_parameters_cost_few_solutions(self):
+        # a chain of 1 K/W each, 1 W at its end: dT_end/dR_k = 1 W
+        count = 1000
+        net = lptn.Network()
+        before = net.boundary("wall", T="0 degC")
+        for k in range(count):
+            net.parameter(f"R{k}", "1 K/W")
+            node = net.node(f"n{k}", massless=True)
+            net.path("resistor", f"r{k}", before, node, R=f"R{k}")
+            before = node
+        net.source("heat", before, P="1 W")
+        function = net.value_and_grad(f"{before}.T", by=[f"R{k}" for k in range(count)])
+        value, gradient = function(function.x0)
+        self.assertAlmostEqual(value, count, places=6)
+        np.testing.assert_allclose(gradient, np.ones(count), rtol=1e-8)
+
+    def test_refusals(self):
+        net = block()
+        self.assertRaises(TypeError, net.value_and_grad, "block.T", by="Q")
+        self.assertRaises(TypeError, net.value_and_grad, "margin(warm)", by="P")
+        with self.assertRaises(ValueError):
+            net.value_and_grad("margin(cold)", by="P", over="run")
+        function = net.value_and_grad("block.T", by=["P", "G"])
+        self.assertRaises(ValueError, function, [1.0])
+        with self.assertRaises(lptn.Error):
+            function([40.0, -1.0])
+        with self.assertRaises(lptn.Error) as caught:
+            net.value_and_grad("peak(block.T)", by="P")
+        self.assertIn("`peak(block.T)`: unknown function `peak`", str(caught.exception))
+        for wrong in ["time_over(block.T, 30 [degC])", "max(blok.T)"]:
+            with self.assertRaises(lptn.Error):
+                net.value_and_grad(wrong, by="P", over="run")(40.0)
+
+    @unittest.skipUnless(installed("scipy"), "SciPy is not installed")
+    def test_scipy_works_with_it(self):
+        from scipy.optimize import least_squares, minimize, root_scalar
+
+        # 25.5 degC + P / G_out + 1.7 K, networks/gearbox.toml
+        hot = lptn.load(GEARBOX).value_and_grad("steel.T", by="G_out")
+        found = root_scalar(
+            lambda g: (hot.value(g) - 80, hot.jac(g)[0]), x0=4, fprime=True, method="newton"
+        )
+        self.assertAlmostEqual(found.root, 220.6 / (80 - 27.2), places=8)
+        # two readings of the block give back the values that made them
+        function = block().value_and_grad(
+            ["last(block.T)", "mean(block.T)"], by=["P", "G"], tolerance="1e-9 K"
+        )
+        wanted = closed(55.0, 1.4)[:2]
+        fit = least_squares(lambda x: function.value(x) - wanted, [40, 2], jac=function.jac)
+        np.testing.assert_allclose(fit.x, [55, 1.4], rtol=1e-6)
+        # the cost P^2 + penalty has its minimum where the constraint is met
+        warm = block().value_and_grad("block.T", by=["P"])
+        square = lambda x: ((warm.value(x) - 50) ** 2, 2 * (warm.value(x) - 50) * warm.jac(x))
+        self.assertAlmostEqual(minimize(square, [40.0], jac=True).x[0], 50.0, places=4)
+
+    @unittest.skipUnless(installed("jax"), "JAX is not installed")
+    def test_jax_works_with_it(self):
+        import jax
+
+        jax.config.update("jax_enable_x64", True)
+        # T = 25 + P / G
+        hot = block().value_and_grad("block.T", by=["P", "G"]).jax()
+        slope = jax.grad(lambda x: hot(x * 2.0) ** 2)(np.array([20.0, 1.0]))
+        np.testing.assert_allclose(slope, [2 * 45 * 2 / 2, -2 * 45 * 2 * 40 / 4], rtol=1e-8)
+        both = block().value_and_grad(["block.T", "cooling.Q"], by=["P", "G"]).jax()
+        rows = jax.jacrev(both)(np.array([40.0, 2.0]))
+        np.testing.assert_allclose(rows, [[0.5, -10], [1, 0]], atol=1e-8)
+
+    def test_a_switching_network_is_refused(self):
+        net = block()
+        net.add("control", "fan", sense="block", on_above="40 degC", off_below="38 degC", start="off")
+        net.path("resistor", "blown", "block", "air", G="1 [W/K] * fan + 0.001 [W/K]")
+        function = net.value_and_grad("last(block.T)", by="P")
+        with self.assertRaises(lptn.Error) as caught:
+            function(100.0)
+        self.assertEqual(caught.exception.code, "gradient::differences")
+        self.assertTrue(math.isfinite(function.x0[0]))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,67 @@
+//! Why there is no gradient.
+
+use lptn_analysis::{AnalysisError, RunError};
+use lptn_assembly::ChangeError;
+use lptn_network::{BuildErrors, InputError};
+use lptn_solve::{SensitiveError, SlopesError, SteadyError};
+
+lptn_units::errors! {
+/// Reason why results have no derivatives by parameters.
+#[derive(Debug)]
+pub enum GradientError {
+    /// The network with these values.
+    Change => ChangeError;
+    /// It has no steady state, or its run failed.
+    Analysis => AnalysisError;
+    /// The run with its sensitivities failed.
+    Sensitive => SensitiveError;
+    /// A result has no derivative there.
+    Slopes => SlopesError;
+    /// A value of the network cannot be evaluated.
+    Input => InputError;
+    /// The results are those of a cycle.
+    Periodic = "gradient::periodic", "a periodic steady state has no gradient",
+        help "take the results over a run that lasts several periods";
+    /// There is no run.
+    NoRun = "run::no_run", "the netlist has no [run], so the duration of a run is not known",
+        help "add these lines:\n\n[run]\nstop = \"25 min\"";
+    /// A functional that has no derivative here; its text.
+    Functional { name: String } = "gradient::functional",
+        format!("`{name}` has no gradient: last, max, min, mean and integral have one"),
+        help "use a method without derivatives";
+    /// The times of the run depend on a parameter.
+    Times = "gradient::times", "the times of the run depend on a parameter of the gradient",
+        help "write `start` and `stop` of [run] as numbers";
+    /// A quantity jumps at a time that depends on the parameters.
+    Jumps { name: String, time: f64 } = "gradient::jumps",
+        format!("`{name}` jumps at {time} s, and parameters move that time: its integral has no \
+                 exact gradient"),
+        help "take the mean of a temperature instead";
+    /// The quantity changes faster than its integral resolves.
+    Unresolved { name: String } = "gradient::unresolved",
+        format!("`{name}` changes too fast for its integral to have an exact gradient"),
+        help "write rows in shorter intervals: `every` of `output` in [run]";
+    /// The network has no exact sensitivities; why.
+    Differences { why: String } = "gradient::differences",
+        format!("the network has no exact sensitivities: {why}"),
+        help "use a method without derivatives";
+}
+}
+
+impl From<SteadyError> for GradientError {
+    fn from(error: SteadyError) -> Self {
+        Self::Analysis(error.into())
+    }
+}
+
+impl From<RunError> for GradientError {
+    fn from(error: RunError) -> Self {
+        Self::Analysis(error.into())
+    }
+}
+
+impl From<BuildErrors> for GradientError {
+    fn from(errors: BuildErrors) -> Self {
+        Self::Change(errors.into())
+    }
+}

@@ -1,0 +1,121 @@
+//! Values of reports and margins with their derivatives by parameters, for optimisers.
+//!
+//! The reports and the parameters are those of a sweep. A steady state has an adjoint, so that its
+//! gradient costs one more solution. A run has forward sensitivities, through its events: each
+//! parameter costs about as much as the run. A maximum changes as the quantity does at its time, an
+//! integral as the integral of the derivative.
+//!
+//! A report becomes a limit of the network with the bound 0: limits have a time at which they are
+//! worst, and derivatives.
+
+mod error;
+mod followed;
+mod over_run;
+
+pub use error::GradientError;
+pub use followed::Gradients;
+
+use lptn_assembly::ThermalSystem;
+use lptn_netlist::{Measure, SweepOver};
+use lptn_network::{Bound, Functional, Limit, LimitId, LimitSeverity, Network, ParameterId, Value};
+use lptn_solve::{Proceed, Progress};
+
+use crate::gradient::followed::Followed;
+use crate::gradient::over_run::OverRun;
+use crate::sweep::SweepTask;
+
+impl SweepTask {
+    /// The reports of the study and the margins of these limits, with their derivatives by the
+    /// parameters of the study at these values, all in SI units.
+    ///
+    /// # Errors
+    /// [`GradientError`], also if a result is not smooth there.
+    pub fn gradients(
+        &self,
+        values: &[f64],
+        margins: &[LimitId],
+        observer: &dyn Fn(Progress) -> Proceed,
+    ) -> Result<Gradients, GradientError> {
+        let mut parameters = self.network().given();
+        let ids: Vec<ParameterId> = self.cases().parameters().collect();
+        ids.iter().zip(values).for_each(|(id, &value)| parameters.set(*id, value));
+        let network = self.network().with(&parameters)?;
+        let own = network.limits().len();
+        let network = network.requiring(self.study().reports.iter().map(limit));
+        let followed = self.followed(&network, (own, margins))?;
+        let system = ThermalSystem::assemble(&network).map_err(lptn_assembly::ChangeError::from)?;
+        match self.study().over {
+            SweepOver::Steady => self.steady_gradients(&system, &followed, &ids),
+            SweepOver::Periodic => Err(GradientError::Periodic),
+            SweepOver::Run => {
+                let run = self.netlist().run.as_ref().ok_or(GradientError::NoRun)?;
+                if self.netlist().run_values().any(|value| network.depends_on(value, &ids)) {
+                    return Err(GradientError::Times);
+                }
+                OverRun::of((&system, &ids), run, &followed, observer)?.gradients()
+            }
+        }
+    }
+
+    fn followed(
+        &self,
+        network: &Network,
+        (own, margins): (usize, &[LimitId]),
+    ) -> Result<Vec<Followed>, GradientError> {
+        let further = network.limit_ids().skip(own);
+        let report = |(limit, measure): (LimitId, &Measure)| {
+            let functional = measure.functional();
+            let sign =
+                if network.limits()[limit.index()].bound == Bound::Below { -1.0 } else { 1.0 };
+            let name = measure.text.clone();
+            match functional {
+                Functional::TimeOver | Functional::TimeUnder | Functional::Life => {
+                    Err(GradientError::Functional { name })
+                }
+                _ => Ok(Followed { limit, sign, functional, name }),
+            }
+        };
+        let margin = |&limit: &LimitId| {
+            let of = &network.limits()[limit.index()];
+            let name = format!("margin({})", of.name);
+            if !of.is_of_moments() {
+                return Err(GradientError::Functional { name });
+            }
+            // the least margin of a run
+            Ok(Followed { limit, sign: 1.0, functional: Functional::Min, name })
+        };
+        further.zip(&self.study().reports).map(report).chain(margins.iter().map(margin)).collect()
+    }
+
+    fn steady_gradients(
+        &self,
+        system: &ThermalSystem,
+        followed: &[Followed],
+        ids: &[ParameterId],
+    ) -> Result<Gradients, GradientError> {
+        let steady = lptn_analysis::steady(system, self.start())?;
+        let mut found = Gradients::default();
+        for one in followed {
+            let slopes = steady.margin_slopes(system, one.limit, ids)?;
+            let by = slopes.by.iter().map(|slope| one.sign * slope).collect();
+            found.add(one.sign * slopes.margin, by);
+        }
+        Ok(found)
+    }
+}
+
+/// A report as a limit: its margin is the quantity, or its negative for a maximum.
+fn limit(measure: &Measure) -> Limit {
+    let most = measure.functional() == Functional::Max;
+    Limit {
+        name: measure.name.clone(),
+        of: measure.of.clone(),
+        ty: measure.over_time.of_ty,
+        bound: if most { Bound::Below } else { Bound::Above },
+        value: Value::Constant(0.0),
+        compares: true,
+        over_time: [None, None],
+        severity: LimitSeverity::Warning,
+        text: measure.text.clone(),
+    }
+}
