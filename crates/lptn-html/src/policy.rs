@@ -3,7 +3,7 @@
 /// Hashes of the scripts as `Content-Security-Policy` writes them; a test checks them.
 const SCRIPTS: [&str; 2] = [
     "sha256-RAis6RoYtIiJmBceEi2mW5qyhxHDDxmmpZFJHFqCyvE=",
-    "sha256-jpQYCBWC1Sxcj0sgc7cvXEKZna7U9FvuRQ0o0WUu9ck=",
+    "sha256-HBs6h5SK7x0jxGdBD8waw+sSl6bwBlJVpMub2QbHouo=",
 ];
 
 /// The policy: nothing is loaded from anywhere.
