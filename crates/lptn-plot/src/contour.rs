@@ -71,7 +71,7 @@ mod tests {
 
     #[test]
     fn levels_are_round_and_inside() {
-        assert_eq!(levels((32.4, 48.8), 8), [34.0, 36.0, 38.0, 40.0, 42.0, 44.0, 46.0, 48.0]);
+        assert_eq!(levels((32.4, 48.8), 9), [34.0, 36.0, 38.0, 40.0, 42.0, 44.0, 46.0, 48.0]);
         assert_eq!(levels((20.0, 25.0), 5), [21.0, 22.0, 23.0, 24.0]);
         assert_eq!(levels((20.0, 20.0), 5).len() + levels((f64::NAN, 1.0), 5).len(), 0);
     }
