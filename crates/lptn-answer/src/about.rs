@@ -3,15 +3,15 @@
 use lptn_graph::{Diagram, Grouping, MOST_PLACES, View, diagram};
 use lptn_netlist::Netlist;
 use lptn_network::{Field, Item, Network, ParameterId};
-use lptn_report::{Claim, Piece, Report, Section, Text, TextTable, plain, significant};
+use lptn_report::{Claim, Piece, Report, Section, Standing, Text, TextTable, plain, significant};
 use lptn_solve::{Lumping, OutOfRange, Snapshot};
 use lptn_study::{FileHash, Sundials};
 use lptn_units::Unit;
 use serde_json::Value;
 
 use crate::input::{Input, quoted};
-use crate::ranges;
 use crate::words::{count, difference, spaced, unverified};
+use crate::{fields, ranges};
 
 /// Sensitivity of an answer to each parameter.
 pub struct Sensitivities {
@@ -28,8 +28,13 @@ pub struct Known<'a> {
     pub claims: Vec<Claim>,
     /// The network at instants, each under a heading.
     pub states: Vec<(String, Snapshot)>,
+    /// The network at further instants, in order, for the fields of its grids; empty for the last
+    /// of the states.
+    pub frames: Vec<(String, Snapshot)>,
     /// Unit of temperatures if it is not that of the netlist.
     pub unit: Option<&'a Unit>,
+    /// Heading of the network if no instants are shown; `None` for "Network".
+    pub network: Option<&'a str>,
     /// The change of the answer by each parameter.
     pub sensitivities: Option<Sensitivities>,
 }
@@ -41,13 +46,18 @@ pub fn about(input: &Input, known: Known<'_>) -> Report {
         known.states.iter().flat_map(|(title, state)| drawing(input, (title, unit), Some(state)));
     let mut sections: Vec<Section> = states.collect();
     if sections.is_empty() {
-        sections.extend(drawing(input, ("Network", unit), None));
+        sections.extend(drawing(input, (known.network.unwrap_or("Network"), unit), None));
     }
+    let frames = match known.frames.is_empty() {
+        true => known.states.as_slice(),
+        false => known.frames.as_slice(),
+    };
+    sections.splice(0..0, fields::sections(input, unit, frames));
     sections.extend(parameters(input, known.sensitivities.as_ref()));
     sections.push(made_from(&hashes(&input.netlist), &input.command));
     let mut claims = known.claims;
     claims.push(linearity(input));
-    Report { name: input.text.stem.clone(), title: String::new(), claims, sections }
+    Report { name: input.text.stem.clone(), claims, sections, ..Report::default() }
 }
 
 /// Every file that a netlist was read from.
@@ -221,6 +231,13 @@ fn written(input: &Input, id: ParameterId) -> String {
         "" => plain(value),
         comment => plain(&format!("{value} ({comment})")),
     }
+}
+
+/// A verdict as the answer that a report begins with.
+pub fn verdict(standing: Standing, verdict: &str) -> Vec<Section> {
+    let mut text = Text::new();
+    text.marked(standing, verdict);
+    vec![Section::of("", Piece::Text(text))]
 }
 
 /// Report on an answer that is not about a netlist.

@@ -21,6 +21,7 @@ pub mod cycle;
 pub mod exit;
 pub mod failure;
 pub mod families;
+pub(crate) mod fields;
 pub mod fit;
 pub mod folder;
 mod gaps;

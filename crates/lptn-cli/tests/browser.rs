@@ -46,7 +46,7 @@ fn address(folder: &Folder, name: &str) -> String {
 }
 
 /// What a page is when its scripts have run, and what the browser said meanwhile.
-fn opened(folder: &Folder, name: &str, width: u32) -> Option<(String, Vec<String>)> {
+pub(crate) fn opened(folder: &Folder, name: &str, width: u32) -> Option<(String, Vec<String>)> {
     let size = format!("--window-size={width},1200");
     let address = address(folder, name);
     let arguments = ["--virtual-time-budget=5000", "--dump-dom", &size, &address];
@@ -57,7 +57,7 @@ fn opened(folder: &Folder, name: &str, width: u32) -> Option<(String, Vec<String
 }
 
 /// What the probe finds in a page, for which another script is allowed in a copy of it.
-fn probed(folder: &Folder, name: &str, width: u32) -> Option<Value> {
+pub(crate) fn probed(folder: &Folder, name: &str, width: u32) -> Option<Value> {
     let page = folder.read(name);
     let from = page.find("<meta http-equiv=\"Content-Security-Policy\"").unwrap();
     let to = from + page[from..].find('\n').unwrap();

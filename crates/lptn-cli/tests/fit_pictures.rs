@@ -143,12 +143,13 @@ fn analytic_records_over_the_fitted_network() {
     for text in ["time [min]", "ring", "a.csv", "b.csv", "sigma 0.1 K", "bands: 0 \u{b1} 2 sigma"] {
         picture.says(text);
     }
-    assert_eq!(picture.panels.len(), 4);
+    // the residuals of all columns are first
+    assert_eq!(picture.panels.len(), 5);
     assert_eq!(picture.dots(upper, "series0").len(), 61);
     let line = &picture.lines(upper, "series0")[0];
     assert_eq!(line.len(), 61);
     line.iter().for_each(|&(t, value)| near(value, 80.0 - 60.0 * f64::exp(-t / 10.0), 300.0));
-    let second = &picture.panels[3];
+    let second = &picture.panels[4];
     assert_eq!((&*second.title, second.count("series0")), (lower, 41));
     for (i, (_, value)) in picture.dots(lower, "series0").iter().enumerate().skip(10) {
         let off = if i % 2 == 0 { 0.1 } else { -0.1 };
@@ -168,7 +169,7 @@ fn many_records_are_not_all_drawn() {
     folder.write("many.toml", &folder.read("body.toml").replace(both, &names.join(", ")));
     let picture = drawn(&folder, &["fit", "network", "many.toml", "--starts", "0"], 0);
     picture.says("the first 12 of 14 records are drawn").says("r11.csv");
-    assert_eq!(picture.panels.len(), 24);
+    assert_eq!(picture.panels.len(), 25);
     assert!(!picture.texts.iter().any(|text| text == "r12.csv"));
 }
 

@@ -78,6 +78,7 @@ mod reduce_verdict;
 mod regression;
 mod regression_studies;
 mod report;
+mod report_pages;
 mod run_times;
 mod schema;
 mod schemas;

@@ -131,6 +131,24 @@ impl GridField {
         (0..x).flat_map(move |i| (0..y).flat_map(move |j| (0..z).map(move |k| [i, j, k])))
     }
 
+    /// The indices of the hottest cell from 0; `None` without temperatures.
+    pub fn hottest(&self) -> Option<[usize; 3]> {
+        let known = self.places().filter(|at| self.at(*at).is_finite());
+        known.reduce(|best, at| if self.at(at) > self.at(best) { at } else { best })
+    }
+
+    /// Layers through the hottest cell, the largest first: those with at least three cells along
+    /// both sides, or the largest one.
+    pub fn cuts(&self) -> Vec<Cut> {
+        let Some(at) = self.hottest() else { return Vec::new() };
+        let sides = |axis: usize| (0..3).filter(move |own| *own != axis).map(|own| self.cells[own]);
+        let mut axes = [2, 1, 0];
+        axes.sort_by_key(|axis| std::cmp::Reverse(sides(*axis).product::<usize>()));
+        let wide = |(place, axis): &(usize, usize)| *place == 0 || sides(*axis).all(|n| n >= 3);
+        let kept = axes.into_iter().enumerate().filter(wide);
+        kept.map(|(_, axis)| Cut { axis, layer: at[axis] }).collect()
+    }
+
     /// The coldest and the hottest temperature in K.
     pub fn span(&self) -> [f64; 2] {
         let fold = |of: fn(f64, f64) -> f64| self.kelvin.iter().copied().reduce(of);

@@ -30,5 +30,5 @@ pub use model::{Diagram, Link, Place, PlaceRole, Scales, Supply, Switching, Targ
 pub use picture::{MOST_DRAWN, TooMany, scene};
 pub use read::{View, diagram};
 pub use sankey::{Band, Bar, BarRole, HeatFlows, NoSankey, sankey};
-pub use slice::slice;
+pub use slice::{Shades, slice};
 pub use vtk::vtk;

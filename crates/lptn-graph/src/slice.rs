@@ -1,8 +1,9 @@
 //! Draws a slice of a field.
 
 use lptn_network::Form;
+use lptn_plot::contour::{Lattice, levels};
 use lptn_plot::font::width;
-use lptn_plot::scene::{Align, Path, Stroke, Text, circle, line, rectangle};
+use lptn_plot::scene::{Align, Path, Step, Stroke, Text, circle, line, rectangle};
 use lptn_plot::{FIELD, Ink, Scene};
 use lptn_report::{plain, prefix, significant};
 use lptn_units::Unit;
@@ -24,13 +25,33 @@ const MOST_TIPS: usize = 2500;
 const MARGIN: f64 = 24.0;
 const AXIS: (f64, f64) = (58.0, 44.0);
 const SIZE: f64 = 12.0;
+const SMALL: f64 = 10.0;
 
-/// A slice of a field as a drawing: its cells coloured by their temperatures, on the scale of the
-/// whole grid.
-pub fn slice(field: &GridField, cut: Cut, title: &str, unit: &Unit) -> Scene {
+/// The colours of a slice.
+#[derive(Clone, Copy, Debug)]
+pub struct Shades {
+    /// The temperatures in K of the coldest and of the hottest colour; `None` for those of the
+    /// grid.
+    pub span: Option<[f64; 2]>,
+    /// True if few cells have tooltips.
+    pub tips: bool,
+}
+
+impl Default for Shades {
+    fn default() -> Self {
+        Self { span: None, tips: true }
+    }
+}
+
+/// Most isotherms of a slice.
+const ISOTHERMS: usize = 8;
+
+/// A slice of a field as a drawing: its cells coloured by their temperatures, isotherms, and the
+/// hottest cell of the grid if it is in the layer.
+pub fn slice(field: &GridField, cut: Cut, (title, unit): (&str, &Unit), shades: Shades) -> Scene {
     let along: Vec<usize> = (0..3).filter(|axis| *axis != cut.axis).collect();
-    let sheet = Sheet::of(field, cut, [along[0], along[1]]);
-    let span = field.span();
+    let span = shades.span.unwrap_or_else(|| field.span());
+    let sheet = Sheet { shades, span, ..Sheet::of(field, cut, [along[0], along[1]]) };
     let words = Scale::new(unit, span[1] - span[0]);
     let title = sheet.title(title);
     let wide = width(&title, 16.0, true).max(AXIS.0 + sheet.size.0 + 20.0).max(BAR.0);
@@ -39,11 +60,16 @@ pub fn slice(field: &GridField, cut: Cut, title: &str, unit: &Unit) -> Scene {
     scene.write(Text::new(title, (MARGIN, MARGIN + 12.0), 16.0, Ink::Text).bold());
     let corner = (MARGIN + AXIS.0, MARGIN + 48.0);
     sheet.cells(&mut scene, corner, &words);
+    let levels = sheet.isotherms(&mut scene, corner, unit);
+    sheet.mark_hottest(&mut scene, corner);
     sheet.axes(&mut scene, corner);
     let below = corner.1 + sheet.size.1 + AXIS.1 + 14.0;
     let caption = format!("{}; {}", field.caption, sheet.hottest(&words));
     let ends = span.map(|kelvin| words.text(kelvin));
-    scale(&mut scene, (&ends, &words.ticks(span)), &caption, (corner.0, below));
+    // isotherms mark the bar themselves
+    let marks = if levels.is_empty() { words.ticks(span) } else { Vec::new() };
+    scale(&mut scene, (&ends, &marks), &caption, (corner.0, below));
+    ticks(&mut scene, &levels, (span, unit), (corner.0, below));
     scene
 }
 
@@ -58,6 +84,9 @@ struct Sheet<'a> {
     /// Width and height in pixels.
     size: (f64, f64),
     true_to_scale: bool,
+    shades: Shades,
+    /// The temperatures of the coldest and of the hottest colour in K.
+    span: [f64; 2],
 }
 
 impl<'a> Sheet<'a> {
@@ -71,7 +100,8 @@ impl<'a> Sheet<'a> {
         let (wide, tall) = (right * scale, up * scale);
         let size = (wide.clamp(LEAST, ROOM.0), tall.clamp(LEAST, ROOM.1));
         let true_to_scale = wide >= LEAST && tall >= LEAST;
-        Self { field, cut, axes, ends, size, true_to_scale }
+        let shades = Shades::default();
+        Self { field, cut, axes, ends, size, true_to_scale, shades, span: field.span() }
     }
 
     fn title(&self, title: &str) -> String {
@@ -127,8 +157,8 @@ impl<'a> Sheet<'a> {
         }
         let (columns, rows) = self.counts();
         let tall = self.size.1 / rows as f64;
-        let span = self.field.span();
-        let told = columns * rows <= MOST_TIPS;
+        let span = self.span;
+        let told = self.shades.tips && columns * rows <= MOST_TIPS;
         for row in 0..rows {
             let top = y + tall * (rows - 1 - row) as f64;
             let mut column = 0;
@@ -176,7 +206,7 @@ impl<'a> Sheet<'a> {
         let scale = self.size.0 / (right - left);
         let centre = (x - left * scale, y + top * scale);
         let (rings, around) = self.counts();
-        let span = self.field.span();
+        let span = self.span;
         for (i, j) in (0..rings).flat_map(|i| (0..around).map(move |j| (i, j))) {
             let at = self.at(i, j);
             let pair = |axis: usize, k: usize| {
@@ -185,7 +215,7 @@ impl<'a> Sheet<'a> {
             };
             let sector = Sector { radii: pair(0, i), angles: pair(1, j) };
             let piece = sector.drawn(centre, scale).filled(self.ink(at, span), 1.0);
-            let told = rings * around <= MOST_TIPS;
+            let told = self.shades.tips && rings * around <= MOST_TIPS;
             scene.put(if told { self.tipped(piece, at, words) } else { piece });
         }
         let pen = Stroke::solid(Ink::Frame, 1.0);
@@ -194,6 +224,60 @@ impl<'a> Sheet<'a> {
         };
         let radii = self.field.ends(0).into_iter().filter(|radius| *radius > 0.0);
         radii.for_each(|radius| scene.put(circle(centre, radius * scale).stroked(pen)));
+    }
+
+    /// Draws isotherms between the nodes of the cells, and returns their temperatures in `unit`.
+    fn isotherms(&self, scene: &mut Scene, corner: (f64, f64), unit: &Unit) -> Vec<f64> {
+        let (columns, rows) = self.counts();
+        if columns < 2 || rows < 2 {
+            return Vec::new();
+        }
+        let [right, up] = self.axes.map(|axis| &self.field.along[axis].nodes);
+        let values = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
+        let shown = |(column, row)| unit.from_si(self.field.at(self.at(column, row)));
+        let lattice =
+            Lattice { x: right.clone(), y: up.clone(), values: values.map(shown).collect() };
+        let [low, high] = self.span.map(|kelvin| unit.from_si(kelvin));
+        let found = levels((low, high), ISOTHERMS);
+        for level in &found {
+            let points = lattice.line(*level);
+            let pieces = points.split(|point| !point.0.is_finite());
+            let steps = pieces
+                .flat_map(|ends| line(ends.iter().map(|point| self.on_page(*point, corner))).steps);
+            let steps: Vec<Step> = steps.collect();
+            if !steps.is_empty() {
+                let tip = format!("{} {}", significant(*level, 6), unit.text);
+                let pen = Stroke::solid(Ink::Paper, 1.2);
+                scene.put(Path::new(steps).stroked(pen).tipped(tip));
+            }
+        }
+        found
+    }
+
+    /// The place on the page of a position along both axes, in m, along phi in rad.
+    fn on_page(&self, (right, up): (f64, f64), (x, y): (f64, f64)) -> (f64, f64) {
+        let [[left, end], [low, top]] = self.ends;
+        let (right, up) = match along_axis(self.field, self.cut) {
+            true => (right * up.cos(), right * up.sin()),
+            false => {
+                let arm = |side: usize| arm(self.field, self.cut, self.axes[side]);
+                (right * arm(0), up * arm(1))
+            }
+        };
+        let across = self.size.0 * (right - left) / (end - left);
+        (x + across, y + self.size.1 * (top - up) / (top - low))
+    }
+
+    /// Marks the hottest cell of the grid if it is in the layer.
+    fn mark_hottest(&self, scene: &mut Scene, corner: (f64, f64)) {
+        let field = self.field;
+        let hottest = field.hottest().filter(|at| at[self.cut.axis] == self.cut.layer);
+        if let Some(at) = hottest {
+            let [right, up] = self.axes.map(|axis| field.along[axis].nodes[at[axis]]);
+            let tip = format!("hottest cell: {}", field.cell(at));
+            let ring = circle(self.on_page((right, up), corner), 5.0);
+            scene.put(ring.stroked(Stroke::solid(Ink::Limit, 2.0)).tipped(tip));
+        }
     }
 
     /// The name of a side: of a layer of a cylinder x and y, of one of its rings the arc.
@@ -231,6 +315,24 @@ impl<'a> Sheet<'a> {
             ticks.push([(x, at), (x - 5.0, at)]);
         }
         ticks.into_iter().for_each(|tick| scene.put(line(tick).stroked(pen)));
+    }
+}
+
+/// Marks the isotherms on the scale.
+fn ticks(scene: &mut Scene, levels: &[f64], (span, unit): ([f64; 2], &Unit), (x, y): (f64, f64)) {
+    let [low, high] = span.map(|kelvin| unit.from_si(kelvin));
+    let mut free = f64::NEG_INFINITY;
+    for level in levels {
+        let at = x + BAR.0 * (level - low) / (high - low);
+        let stroke = Stroke::solid(Ink::Paper, 1.2);
+        scene.put(line([(at, y), (at, y + BAR.1)]).stroked(stroke));
+        let text = significant(*level, 6);
+        let half = width(&text, SMALL, false) / 2.0;
+        if at - half > free {
+            let text = Text::new(text, (at, y - 4.0), SMALL, Ink::Faint);
+            scene.write(text.aligned(Align::Middle));
+            free = at + half + 4.0;
+        }
     }
 }
 

@@ -255,6 +255,8 @@ function enliven(element, index) {
   const values = JSON.parse(element.querySelector("script").textContent);
   const host = element.querySelector(".live");
   const width = room(values.panels), end = values.panels.length - 1;
+  // before it is drawn, so that it has its width
+  element.classList.add("zooms");
   const draw = () => values.panels.map((panel, i) => plot(panel, values.places, host, "figure" + index, [width, i == 0, i == end]));
   const figure = { values, charts: draw() };
   figure.redraw = () => {
@@ -265,7 +267,6 @@ function enliven(element, index) {
   hint.className = "hint";
   hint.textContent = "Drag to zoom, double-click to see all, click a name to hide its curve.";
   element.append(hint);
-  element.classList.add("zooms");
   const resize = () => figure.charts.forEach((chart, i) => {
     const width = Math.max(200, host.clientWidth);
     if (width != chart.width) chart.setSize({ width, height: heightOf(values.panels[i]) });
@@ -380,6 +381,20 @@ window.addEventListener("beforeprint", () => all("details:not([open])").forEach(
   folded.push(part);
 }));
 window.addEventListener("afterprint", () => folded.splice(0).forEach(part => { part.open = false; }));
+
+// drawings of several times, one of which is shown
+all("figure.frames").filter(figure => figure.querySelector("input")).forEach(figure => {
+  const frames = all("div", figure), slider = figure.querySelector("input");
+  const show = () => {
+    frames.forEach((frame, i) => { frame.hidden = i != slider.value; });
+    const time = frames[slider.value].dataset.time;
+    slider.setAttribute("aria-valuetext", time);
+    figure.querySelector("output").textContent = time;
+  };
+  figure.querySelector("label").hidden = false;
+  slider.addEventListener("input", show);
+  show();
+});
 
 all("figure.chart").filter(figure => figure.querySelector(".live")).forEach(enliven);
 all("figure.drawing").forEach(fitted);

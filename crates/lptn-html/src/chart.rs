@@ -9,7 +9,8 @@ use serde_json::{Value, json};
 /// Width of a picture in CSS pixels.
 const WIDTH: f64 = 760.0;
 
-/// Writes a figure. Its curves can be zoomed if no axis has names and all lines go to the right.
+/// Writes a figure. Its curves can be zoomed if no axis has names, all lines go to the right, and
+/// no point has a tooltip, which only the picture shows.
 pub(crate) fn write(out: &mut String, figure: &Figure) {
     let still = Figure { title: String::new(), note: String::new(), panels: figure.panels.clone() };
     let picture = svg::write(&scene(&[still], WIDTH));
@@ -30,11 +31,12 @@ pub(crate) fn write(out: &mut String, figure: &Figure) {
     *out += "</figure>\n";
 }
 
-/// True if both axes have values and all lines go to the right.
+/// True if both axes have values, all lines go to the right, and there are no tooltips.
 fn is_zoomable(panel: &Panel) -> bool {
     let has_names = |axis: &Axis| matches!(axis.scale, Scale::Names(_));
     !has_names(&panel.x)
         && !has_names(&panel.y)
+        && panel.curves.iter().all(|curve| curve.tips.is_empty())
         && panel.curves.iter().all(|curve| is_cloud(curve) || is_sorted(curve))
 }
 
@@ -93,7 +95,7 @@ fn of_curve((curve, at): (&Curve, usize), panel: &Panel, places: &mut Vec<Vec<f6
         places.push(x);
         places.len() - 1
     });
-    let look = ["line", "dashed", "dots", "stems"][curve.look as usize];
+    let look = ["line", "dashed", "dots", "stems", "bars"][curve.look as usize];
     let mut value = json!({
         "name": curve.name,
         "look": look,

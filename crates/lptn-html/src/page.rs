@@ -1,5 +1,6 @@
 //! The page: head, claims, sections.
 
+use lptn_plot::Scene;
 use lptn_plot::svg::{self, escaped};
 use lptn_report::{Piece, Report, Section, Standing};
 
@@ -58,6 +59,7 @@ fn section(out: &mut String, section: &Section) {
     let title = escaped(&section.title);
     match (section.folded, title.is_empty()) {
         (true, _) => *out += &format!("<details>\n<summary>{title}</summary>\n"),
+        (false, true) if section.is_of_small() => *out += "<section class=\"many\">\n",
         (false, true) => *out += "<section>\n",
         (false, false) => *out += &format!("<section>\n<h2>{title}</h2>\n"),
     }
@@ -70,14 +72,34 @@ fn piece(out: &mut String, piece: &Piece) {
         Piece::Text(of) => text::write(out, of),
         Piece::Figure(figure) => chart::write(out, figure),
         Piece::Drawing(scene, caption) => {
-            let (drawing, caption) = (svg::write(scene), escaped(caption));
-            // on a narrow screen it scrolls: smaller, it would be illegible
-            let least = (SMALLEST * scene.size.0).round();
-            *out += "<figure class=\"drawing\">\n<div>";
-            *out += &drawing.replacen("<svg ", &format!("<svg style=\"min-width:{least}px\" "), 1);
-            *out += "</div>\n";
-            *out += &format!("<figcaption>{caption}</figcaption>\n</figure>\n");
+            *out += &format!("<figure class=\"drawing\">\n<div>{}</div>\n", drawing(scene));
+            *out += &format!("<figcaption>{}</figcaption>\n</figure>\n", escaped(caption));
         }
+        Piece::Frames(frames) => moving(out, frames),
         Piece::Verbatim(lines) => text::verbatim(out, lines),
     }
+}
+
+/// A drawing that scrolls on a narrow screen: smaller, it would be illegible.
+fn drawing(scene: &Scene) -> String {
+    let least = (SMALLEST * scene.size.0).round();
+    svg::write(scene).replacen("<svg ", &format!("<svg style=\"min-width:{least}px\" "), 1)
+}
+
+/// Drawings with a slider over their times. Without scripts the last one is shown.
+fn moving(out: &mut String, frames: &[(String, Scene)]) {
+    let last = frames.len().saturating_sub(1);
+    *out += "<figure class=\"drawing frames\">\n";
+    if last > 0 {
+        *out += &format!(
+            "<label class=\"slider\" hidden>time <input type=\"range\" min=\"0\" max=\"{last}\" \
+             value=\"{last}\"> <output></output></label>\n"
+        );
+    }
+    for (i, (time, scene)) in frames.iter().enumerate() {
+        let hidden = if i < last { " hidden" } else { "" };
+        let time = escaped(time);
+        *out += &format!("<div data-time=\"{time}\"{hidden}>{}</div>\n", drawing(scene));
+    }
+    *out += "</figure>\n";
 }

@@ -3,7 +3,7 @@
 /// Hashes of the scripts as `Content-Security-Policy` writes them; a test checks them.
 const SCRIPTS: [&str; 2] = [
     "sha256-RAis6RoYtIiJmBceEi2mW5qyhxHDDxmmpZFJHFqCyvE=",
-    "sha256-0+t9dNSRTh+YFjGdtJBsoc25TcyzKqHcjidGLtAvAL8=",
+    "sha256-rpNP9Qydw5LAUQCpFQIm8rkWDpXEwHkmYxzHxWvWurg=",
 ];
 
 /// The policy: nothing is loaded from anywhere.

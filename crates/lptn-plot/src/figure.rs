@@ -26,6 +26,8 @@ pub struct Panel {
     pub moments: Vec<Moment>,
     /// Height as a share of the height of an ordinary panel.
     pub share: f64,
+    /// True in a figure that is one of many alike: a page puts them next to each other.
+    pub small: bool,
 }
 
 /// An axis.
@@ -60,9 +62,11 @@ pub struct Curve {
     pub name: String,
     /// Its points in order. A value that is not finite interrupts it.
     pub points: Vec<(f64, f64)>,
-    /// Lowest and highest value at each point: a band around a line, bars at dots. Empty if
-    /// unknown.
+    /// Lowest and highest value at each point: a band around a line, bars at dots, the two ends of
+    /// a bar across. Empty if unknown.
     pub spread: Vec<(f64, f64)>,
+    /// Tooltip of each point, of a line that of the whole; empty for the name of the curve.
+    pub tips: Vec<String>,
     /// Its style.
     pub look: Look,
     /// True if it does not set the scale if it is far from all others, as empty space is.
@@ -83,6 +87,9 @@ pub enum Look {
     Dots,
     /// A dot with a line down to zero.
     Stems,
+    /// A bar across, from the low to the high end of its spread, in the row of its point. The axis
+    /// upwards has names.
+    Bars,
 }
 
 /// A value that should not be exceeded.
@@ -125,6 +132,13 @@ impl Axis {
     }
 }
 
+impl Figure {
+    /// True if it is one of many alike.
+    pub fn is_small(&self) -> bool {
+        self.panels.iter().any(|panel| panel.small)
+    }
+}
+
 impl Scale {
     /// True if the scale has a place for a value.
     pub fn shows(&self, value: f64) -> bool {
@@ -140,15 +154,23 @@ impl Panel {
 
     /// An empty panel.
     pub fn new(x: Axis, y: Axis) -> Self {
-        Self { x, y, curves: Vec::new(), limits: Vec::new(), moments: Vec::new(), share: 1.0 }
+        Self {
+            x,
+            y,
+            curves: Vec::new(),
+            limits: Vec::new(),
+            moments: Vec::new(),
+            share: 1.0,
+            small: false,
+        }
     }
 }
 
 impl Curve {
     /// A line through points.
     pub fn line(name: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
-        let (spread, look, aside, place) = (Vec::new(), Look::Line, false, None);
-        Self { name: name.into(), points, spread, look, aside, place }
+        let (spread, tips, look, aside, place) = (Vec::new(), Vec::new(), Look::Line, false, None);
+        Self { name: name.into(), points, spread, tips, look, aside, place }
     }
 
     /// Sets how the curve is drawn.
@@ -161,6 +183,12 @@ impl Curve {
     #[must_use]
     pub fn as_place(self, place: usize) -> Self {
         Self { place: Some(place), ..self }
+    }
+
+    /// Adds a tooltip to each point, to a line one for the whole.
+    #[must_use]
+    pub fn tipped(self, tips: Vec<String>) -> Self {
+        Self { tips, ..self }
     }
 
     /// Adds a band or bars around the curve.

@@ -10,6 +10,7 @@
 //! inks and writers.
 
 pub mod chart;
+pub mod contour;
 pub mod figure;
 pub mod font;
 mod ink;

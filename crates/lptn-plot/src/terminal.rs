@@ -73,7 +73,7 @@ fn numbers(ruler: &Ruler) -> usize {
 /// Width of the names of a panel's curves.
 fn names(panel: &Panel) -> usize {
     let length = |curve: &Curve| {
-        let marked = curve.look == Look::Dots;
+        let marked = matches!(curve.look, Look::Dots | Look::Bars);
         curve.name.chars().count() + if marked { 2 } else { 0 }
     };
     panel.curves.iter().map(length).max().unwrap_or(0)
@@ -152,6 +152,9 @@ impl Canvas {
     }
 
     fn curve(&mut self, panel: &Panel, curve: &Curve, place: usize) {
+        if curve.look == Look::Bars {
+            return self.bars(curve, place);
+        }
         let mut last: Option<(f64, f64)> = None;
         for &(x, y) in &curve.points {
             if !panel.shows((x, y)) {
@@ -165,7 +168,7 @@ impl Canvas {
             );
             let from = match curve.look {
                 Look::Line | Look::Dashed => last.unwrap_or(dot),
-                Look::Dots => dot,
+                Look::Dots | Look::Bars => dot,
                 Look::Stems => (dot.0, (4 * self.rows - 1) as f64),
             };
             if self.marked(curve) {
@@ -177,9 +180,20 @@ impl Canvas {
         }
     }
 
+    /// Bars across, each in the row of its point.
+    fn bars(&mut self, curve: &Curve, place: usize) {
+        for (&(_, row), &(low, high)) in curve.points.iter().zip(&curve.spread) {
+            let row = self.row(row);
+            let end = (self.x.place(high) * self.columns as f64).round() as usize;
+            let columns = self.column(low)..end.min(self.columns);
+            columns.for_each(|column| self.mark((column, row), place));
+        }
+    }
+
     /// True if the points of a curve are few enough that each has a sign.
     fn marked(&self, curve: &Curve) -> bool {
-        curve.look == Look::Dots && curve.points.len() <= self.columns / 2
+        let few = curve.points.len() <= self.columns / 2;
+        curve.look == Look::Bars || curve.look == Look::Dots && few
     }
 
     fn mark(&mut self, (column, row): (usize, usize), place: usize) {

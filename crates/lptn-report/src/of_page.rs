@@ -1,5 +1,7 @@
 //! A page as a report.
 
+use lptn_plot::Figure;
+
 use crate::page::Page;
 use crate::report::{Claim, Piece, Report, Section};
 use crate::text::{Block, Text};
@@ -9,17 +11,27 @@ pub fn report_of(page: &dyn Page) -> Report {
     let (title, text) = titled(&page.text());
     let mut report = Report { title, ..page.more() };
     report.claims.extend(page.no().map(|no| Claim::checked(false, no)));
-    let mut own: Vec<Section> = Vec::new();
+    let text = report.results.take().unwrap_or(text);
+    let mut own: Vec<Section> = std::mem::take(&mut report.answer);
     for mut figure in page.figures().into_iter().filter(|figure| !figure.panels.is_empty()) {
         if figure.title == report.title {
             figure.title = String::new();
         }
-        own.push(Section::of("", Piece::Figure(figure)));
+        add(&mut own, figure);
     }
     own.push(Section::of("Results", Piece::Text(text)));
     report.sections.splice(0..0, own);
     report
 }
+
+/// Adds a figure as a section; small ones are together.
+fn add(own: &mut Vec<Section>, figure: Figure) {
+    match own.last_mut().filter(|last| figure.is_small() && last.is_of_small()) {
+        Some(last) => last.pieces.push(Piece::Figure(figure)),
+        None => own.push(Section::of("", Piece::Figure(figure))),
+    }
+}
+
 /// The title of a text, and the text without it.
 fn titled(text: &Text) -> (String, Text) {
     let mut title = String::new();

@@ -17,6 +17,10 @@ pub struct Report {
     pub title: String,
     /// Claims on its trustworthiness.
     pub claims: Vec<Claim>,
+    /// The answer in short, before its figures.
+    pub answer: Vec<Section>,
+    /// The text below the figures; `None` for that of the page.
+    pub results: Option<Text>,
     /// Its parts, in order.
     pub sections: Vec<Section>,
 }
@@ -50,6 +54,8 @@ pub enum Piece {
     Figure(Figure),
     /// A drawing and its caption.
     Drawing(Scene, String),
+    /// Drawings of one thing at several times, each with its time; the last is shown first.
+    Frames(Vec<(String, Scene)>),
     /// A text whose lines stay as they are.
     Verbatim(String),
 }
@@ -58,6 +64,12 @@ impl Section {
     /// A section with one piece.
     pub fn of(title: impl Into<String>, piece: Piece) -> Self {
         Self { title: title.into(), pieces: vec![piece], folded: false }
+    }
+
+    /// True if it has nothing but small figures, which are next to each other.
+    pub fn is_of_small(&self) -> bool {
+        let is_small = |piece: &Piece| matches!(piece, Piece::Figure(figure) if figure.is_small());
+        self.pieces.iter().all(is_small)
     }
 
     /// The same section, collapsed.

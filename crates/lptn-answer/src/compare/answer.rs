@@ -1,5 +1,7 @@
 //! Candidates side by side, with doubts and failures.
 
+use std::sync::Arc;
+
 use lptn_netlist::{Diagnostic, Files, Netlist};
 use lptn_report::plain;
 use lptn_study::{Candidate, CompareRow};
@@ -11,6 +13,7 @@ use crate::answer::Answer;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::gathered::Gathered;
+use crate::input::Input;
 use crate::steady::others;
 use crate::words::unverified;
 use crate::{bound, trust};
@@ -26,6 +29,10 @@ pub struct CompareAnswer {
     pub ends: Vec<Exit>,
     /// Problems of the candidates without results.
     pub failures: Vec<Failure>,
+    /// The netlist of each row that could be read.
+    pub(super) inputs: Vec<Option<Arc<Input>>>,
+    /// The label of the variant of each row.
+    pub(super) labels: Vec<String>,
     /// True if candidates are variants of files.
     pub(super) variants: bool,
     /// True if large families are shown as one.
@@ -66,16 +73,28 @@ impl CompareAnswer {
         outcomes: impl Iterator<Item = (Loaded, Result<Candidate, NoResult>)>,
         unit: Unit,
     ) -> Self {
-        let (rows, ends, failures) = (Vec::new(), Vec::new(), Vec::new());
-        let (gathered, command, variants) = (Gathered::default(), Vec::new(), false);
-        let fold = true;
-        let mut comparison = Self { rows, unit, ends, failures, gathered, variants, fold, command };
+        let mut comparison = Self {
+            rows: Vec::new(),
+            unit,
+            ends: Vec::new(),
+            failures: Vec::new(),
+            inputs: Vec::new(),
+            labels: Vec::new(),
+            variants: false,
+            fold: true,
+            command: Vec::new(),
+            gathered: Gathered::default(),
+        };
         outcomes.for_each(|(loaded, outcome)| comparison.add(loaded, outcome));
+        let conditions = comparison.conditions();
+        comparison.gathered.add(&Files::new(), &conditions);
         comparison
     }
 
     fn add(&mut self, loaded: Loaded, outcome: Result<Candidate, NoResult>) {
-        let Loaded { file, input, .. } = loaded;
+        let Loaded { file, label, input, .. } = loaded;
+        self.labels.push(label);
+        self.inputs.push(None);
         let mut title = String::new();
         let mut failure = None;
         match input {
@@ -101,7 +120,7 @@ impl CompareAnswer {
                     let message = format!("{file}: {text}");
                     Diagnostic::warning("network::unverified_constants", message)
                 });
-                let own = input.netlist.warnings.into_iter();
+                let own = input.netlist.warnings.iter().cloned();
                 let warnings: Vec<Diagnostic> = own
                     .chain(vary)
                     .chain(beyond)
@@ -111,6 +130,8 @@ impl CompareAnswer {
                     .chain(unsure)
                     .collect();
                 self.gathered.add(&input.netlist.files, &warnings);
+                self.inputs.pop();
+                self.inputs.push(Some(Arc::new(input)));
             }
             Err(not_read) => failure = Some(not_read),
         }

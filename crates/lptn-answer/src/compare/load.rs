@@ -40,6 +40,8 @@ pub fn too_many(option: &str) -> Failure {
 pub struct Loaded {
     /// The file and the label of the variant.
     pub file: String,
+    /// The label of the variant.
+    pub label: String,
     /// The netlist with its assignments.
     pub input: Result<Input, Failure>,
     /// For each `--set`, true if this candidate has the parameter.
@@ -56,7 +58,8 @@ pub fn load(file: &Path, variant: &Variant, belief: &Belief<'_>) -> Loaded {
     let mut input = match Input::open(file, belief, (variant.case.as_deref(), &[])) {
         Ok(input) => input,
         Err(failure) => {
-            return Loaded { file: name, input: Err(failure), has: vec![false; set.len()] };
+            let (label, has) = (variant.label.clone(), vec![false; set.len()]);
+            return Loaded { file: name, label, input: Err(failure), has };
         }
     };
     let network = &input.netlist.network;
@@ -68,7 +71,8 @@ pub fn load(file: &Path, variant: &Variant, belief: &Belief<'_>) -> Loaded {
     let own: Vec<String> =
         set.iter().zip(&has).filter(|(_, has)| **has).map(|(text, _)| text.clone()).collect();
     let outcome = input.netlist.set(&own);
-    Loaded { file: name, input: outcome.map(|()| input).map_err(Failure::from), has }
+    let input = outcome.map(|()| input).map_err(Failure::from);
+    Loaded { file: name, label: variant.label.clone(), input, has }
 }
 
 /// Refuses a `--set` that no candidate can use.

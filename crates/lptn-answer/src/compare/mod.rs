@@ -1,6 +1,8 @@
 //! Candidate designs side by side.
 
 mod answer;
+mod conditions;
+mod differences;
 mod doubts;
 mod evaluate;
 mod figure;
@@ -8,6 +10,7 @@ mod load;
 mod margins;
 mod page;
 mod variants;
+mod verdict;
 
 use std::path::PathBuf;
 

@@ -25,13 +25,10 @@ impl CompareAnswer {
     pub fn sentence(&self) -> String {
         sentence(self)
     }
-}
 
-impl Page for CompareAnswer {
-    fn text(&self) -> Text {
+    /// The tables of its text.
+    fn tables(&self, text: &mut Text) {
         let rows = &self.rows;
-        let of = only_file(rows).map_or(String::new(), |file| format!(" of {}", plain(file)));
-        let mut text = Text::titled(format!("{}{of}", count(rows.len(), "candidate")));
         text.section().table(overview(self));
         let sections = [
             ("margin to", margins((rows, self.fold), &CompareRow::limit)),
@@ -46,6 +43,18 @@ impl Page for CompareAnswer {
                 text.section().table(table);
             }
         }
+    }
+}
+
+impl Page for CompareAnswer {
+    fn text(&self) -> Text {
+        let rows = &self.rows;
+        let of = only_file(rows).map_or(String::new(), |file| format!(" of {}", plain(file)));
+        let mut text = Text::titled(format!("{}{of}", count(rows.len(), "candidate")));
+        if let Some(verdict) = self.verdict() {
+            text.sentence("", &verdict);
+        }
+        self.tables(&mut text);
         text
     }
 
@@ -54,11 +63,13 @@ impl Page for CompareAnswer {
     }
 
     fn figures(&self) -> Vec<Figure> {
-        vec![self.figure()]
+        [Some(self.figure()), self.curves(), self.heat_bars()].into_iter().flatten().collect()
     }
 
     fn more(&self) -> Report {
-        about::of_command(&[], &self.command)
+        let (answer, mut results) = (self.side_by_side(), Text::new());
+        self.tables(&mut results);
+        Report { answer, results: Some(results), ..about::of_command(&[], &self.command) }
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -74,6 +85,7 @@ impl Page for CompareAnswer {
             Exit::Done | Exit::No => json.member("errors", &errors)?,
             exit => messages::failed(json, exit, &errors)?,
         }
+        json.optional("verdict", self.verdict())?;
         json.table(&scale::table(&compare_table(&self.rows, &self.unit), &self.unit))
     }
 }
@@ -188,7 +200,7 @@ fn numbers(rows: &[CompareRow], unit: &Unit) -> Vec<Column> {
 
 /// Title of amounts of heat: over the run if any candidate has one, else over the cycle.
 /// In steady state it is the heat flow out.
-fn heat_over(rows: &[CompareRow]) -> &'static str {
+pub(super) fn heat_over(rows: &[CompareRow]) -> &'static str {
     let all = || rows.iter().filter_map(CompareRow::candidate).map(|c| c.heat.over);
     match (all().any(|over| over == HeatOver::Run), all().any(|over| over == HeatOver::Cycle)) {
         (true, _) => "heat over the run",

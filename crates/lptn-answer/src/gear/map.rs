@@ -1,10 +1,10 @@
 //! Map of efficiency: lines of equal efficiency over speed and torque of the input.
 
 use lptn_plot::Figure;
+use lptn_plot::contour::{Lattice, levels};
 use lptn_plot::figure::{Axis, Curve, Panel};
 use lptn_report::significant;
 
-use super::contours::GridField;
 use super::tables::rpm;
 use super::{Block, GearAnswer};
 
@@ -16,6 +16,9 @@ const LEVELS: [f64; 19] = [
 
 /// Most lines, those of the best efficiencies.
 const MOST_LINES: usize = 8;
+
+/// With fewer lines than this, they are at round values of the range instead.
+const FEW_LINES: usize = 4;
 
 /// Fewest speeds and torques of a map.
 const FEWEST: usize = 3;
@@ -71,7 +74,7 @@ impl GearAnswer {
     }
 
     /// Efficiencies in % over speeds in rpm and torques.
-    fn field(&self, rows: &[(f64, &Block)]) -> Option<GridField> {
+    fn field(&self, rows: &[(f64, &Block)]) -> Option<Lattice> {
         let (_, first) = rows.first()?;
         let mut order: Vec<usize> = (0..first.states.len()).collect();
         order.sort_by(|a, b| first.states[*a].0.total_cmp(&first.states[*b].0));
@@ -84,7 +87,7 @@ impl GearAnswer {
             efficiency.map_or(f64::NAN, |efficiency| 100.0 * efficiency)
         };
         let values = rows.iter().flat_map(|(_, block)| order.iter().map(|at| percent(block, *at)));
-        Some(GridField {
+        Some(Lattice {
             values: values.collect(),
             x: order.iter().map(|at| rpm(first.states[*at].0)).collect(),
             y: rows.iter().map(|(torque, _)| *torque).collect(),
@@ -93,9 +96,12 @@ impl GearAnswer {
 }
 
 /// The levels inside the range of a field.
-fn drawn(field: &GridField) -> Vec<f64> {
+fn drawn(field: &Lattice) -> Vec<f64> {
     let (low, high) = ends(&field.values);
     let inside: Vec<f64> = LEVELS.into_iter().filter(|l| low < *l && *l < high).collect();
+    if inside.len() < FEW_LINES {
+        return levels((low, high), MOST_LINES);
+    }
     inside[inside.len().saturating_sub(MOST_LINES)..].to_vec()
 }
 

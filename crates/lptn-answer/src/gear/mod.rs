@@ -1,6 +1,5 @@
 //! Gears: speeds, torques, and the loss of each part.
 
-mod contours;
 mod figure;
 mod map;
 mod page;

@@ -1,6 +1,6 @@
 //! The temperatures in a grid.
 
-use lptn_graph::{GridField, NoSlice};
+use lptn_graph::{GridField, NoSlice, Shades};
 use lptn_netlist::{Diagnostic, Files, Span};
 use lptn_network::GridId;
 use lptn_report::Shortest;
@@ -34,7 +34,7 @@ pub(super) fn written(asked: &mut Asked<'_>) -> Result<Parts, Failure> {
             (lptn_graph::vtk(&field, &title, unit).into_bytes(), format!("{name}.{ending}"))
         }
         (_, Some(cut)) => {
-            let scene = lptn_graph::slice(&field, cut, &title, unit);
+            let scene = lptn_graph::slice(&field, cut, (&title, unit), Shades::default());
             let axis = field.form.directions()[cut.axis];
             (picture(kind, &scene)?, format!("{name}_{axis}{}.{ending}", cut.layer + 1))
         }

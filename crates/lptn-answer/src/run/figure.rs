@@ -7,6 +7,7 @@ use lptn_report::{MOST_CURVES, TEMPERATURE, panels};
 use lptn_solve::Event;
 
 use super::answer::RunAnswer;
+use super::uncertainty::figure::{InputBand, inputs};
 use crate::limits;
 use crate::words::count;
 
@@ -66,12 +67,15 @@ impl RunAnswer {
         notes.join("; ")
     }
 
-    /// Draws bands around the temperatures, if they are known.
+    /// Draws bands around inputs and temperatures, if they are known.
     fn spread(&self, panel: &mut Panel) {
-        let Some(study) = self.uncertainty().filter(|_| panel.y.name == TEMPERATURE) else {
-            return;
-        };
+        let Some(study) = self.uncertainty() else { return };
         let network = self.solution.network();
+        let inputs = inputs(network, &study.found);
+        self.spread_inputs(panel, &study.found.times, &inputs);
+        if panel.y.name != TEMPERATURE {
+            return;
+        }
         let shown = |kelvin: &f64| self.task.unit.from_si(*kelvin);
         for curve in &mut panel.curves {
             let of = |node: usize| network.nodes()[node].name == curve.name;
@@ -81,6 +85,25 @@ impl RunAnswer {
             let points = times.zip(bands.value.iter().map(shown)).collect();
             let sides = bands.low.iter().map(shown).zip(bands.high.iter().map(shown));
             *curve = Curve::line(&curve.name, points).within(sides.collect());
+        }
+    }
+}
+
+impl RunAnswer {
+    /// Draws bands around the boundaries of a panel of temperatures, and around given heats.
+    fn spread_inputs(&self, panel: &mut Panel, times: &[f64], inputs: &[InputBand]) {
+        let of_temperatures = panel.y.name == TEMPERATURE;
+        let unit = &self.task.unit;
+        let shown = |si: f64| if of_temperatures { unit.from_si(si) } else { si };
+        let is_heat = |band: &InputBand| band.name.ends_with(".P");
+        for curve in &mut panel.curves {
+            let of =
+                |band: &&InputBand| band.name == curve.name && is_heat(band) != of_temperatures;
+            let Some(band) = inputs.iter().find(of) else { continue };
+            let points = times.iter().copied().zip(band.value.iter().map(|si| shown(*si)));
+            let sides = band.value.iter().zip(&band.half);
+            let sides = sides.map(|(si, half)| (shown(si - half), shown(si + half))).collect();
+            *curve = Curve::line(&curve.name, points.collect()).within(sides);
         }
     }
 }

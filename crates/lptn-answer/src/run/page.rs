@@ -77,7 +77,10 @@ impl Page for RunAnswer {
     }
 
     fn figures(&self) -> Vec<Figure> {
-        vec![self.figure()]
+        let tornado = |study: &uncertainty::Study| {
+            uncertainty::figure::tornado(self.solution.network(), &study.found)
+        };
+        self.uncertainty().and_then(tornado).into_iter().chain([self.figure()]).collect()
     }
 
     fn more(&self) -> Report {

@@ -9,6 +9,7 @@ use lptn_study::Environment;
 use super::answer::RunAnswer;
 use crate::about::{self, Known, Sensitivities};
 use crate::bound::{not_bounded, weak_ledger};
+use crate::fields::MOST_FRAMES;
 use crate::limits;
 
 /// With more numbers than this, nodes times parameters, sensitivities take longer than the run.
@@ -22,6 +23,8 @@ impl RunAnswer {
             claims: self.claims(),
             states: self.states(),
             unit: Some(&self.task.unit),
+            frames: self.frames(),
+            network: None,
             sensitivities: if from_start { self.sensitivities() } else { None },
         };
         let mut report = about::about(&self.task.input, known);
@@ -45,6 +48,19 @@ impl RunAnswer {
         let settled = self.steady.as_ref().ok();
         let settled = settled.map(|steady| ("Steady state".to_owned(), steady.state.clone()));
         rows.into_iter().filter_map(one).chain(settled).collect()
+    }
+
+    /// Instants of the run for the fields of grids, evenly spaced, the end among them.
+    fn frames(&self) -> Vec<(String, Snapshot)> {
+        let times = self.solution.times();
+        if self.solution.network().grids().is_empty() || times.is_empty() {
+            return Vec::new();
+        }
+        let last = times.len() - 1;
+        let step = last.div_ceil(MOST_FRAMES - 1).max(1);
+        let rows = (0..times.len()).filter(|row| (last - row).is_multiple_of(step));
+        let one = |row: usize| Some((duration(times[row], 4), self.solution.snapshot(row)?));
+        rows.filter_map(one).collect()
     }
 
     fn claims(&self) -> Vec<Claim> {

@@ -231,7 +231,7 @@ impl SteadyAnswer {
         let own = [Claim::checked(true, books)].into_iter().chain(laws);
         let claims = own.chain(limits::claims(&self.judgement())).collect();
         let states = vec![("Steady state".to_owned(), self.steady.state.clone())];
-        about::about(&self.input, Known { claims, states, unit: Some(unit), sensitivities: None })
+        about::about(&self.input, Known { claims, states, unit: Some(unit), ..Known::default() })
     }
 }
 

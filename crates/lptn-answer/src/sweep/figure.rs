@@ -1,12 +1,29 @@
 //! A sweep as a picture: reports over the parameter, or one report over another.
 
-use lptn_plot::Figure;
-use lptn_plot::figure::{Axis, Curve, Look, Panel};
+use lptn_plot::figure::{Axis, Curve, Look, Moment, Panel};
+use lptn_plot::{Figure, printed};
+use lptn_report::significant;
+use lptn_study::standing::NONE;
 
 use super::asked::Column;
 use super::page::SweepAnswer;
 use super::row::Row;
 use super::tally::MOST_POINTS;
+use crate::words::spaced;
+
+/// Most candidates of a figure that have a tooltip each.
+const MOST_TIPS: usize = 2000;
+
+/// Most lines and most scales of candidates over their values.
+const MOST_LINES: usize = 300;
+const MOST_SCALES: usize = 10;
+
+/// Digits of a value in a tooltip.
+const DIGITS: usize = 5;
+
+/// Names of candidates by their limits of severity error.
+const KEEPS: &str = "keeps its limits";
+const BREAKS: &str = "breaks a limit";
 
 /// A range that spans more than this is shown by its logarithms.
 const WIDE: f64 = 10.0;
@@ -36,7 +53,9 @@ impl SweepAnswer {
         let across = self.axis(rows, 0);
         let mut panels: Vec<Panel> = Vec::new();
         for (place, report) in (self.axes().len()..).zip(self.reports()) {
+            let tips = self.tips(&sorted(rows, 0)).filter(|_| look == Look::Dots);
             let curve = Curve::line(&report.name, points(rows, (0, place))).looks(look);
+            let curve = curve.tipped(tips.unwrap_or_default());
             let upwards = Axis::linear("", &report.unit.text);
             match panels.iter_mut().find(|panel| panel.y == upwards) {
                 Some(panel) => panel.curves.push(curve),
@@ -57,8 +76,7 @@ impl SweepAnswer {
         let panel = |(place, report): (usize, &Column)| {
             let mut panel =
                 Panel::new(across.clone(), Axis::linear(&report.name, &report.unit.text));
-            let dots = Curve::line("candidates", points(rows, (first, place)));
-            panel.curves.push(dots.looks(Look::Dots));
+            panel.curves.extend(self.dots(rows, (first, place)));
             panel
         };
         others.map(panel).collect()
@@ -71,9 +89,90 @@ impl SweepAnswer {
         let upwards = &self.asked.columns[y];
         let upwards = Axis::linear(&upwards.name, &upwards.unit.text);
         let mut panel = Panel::new(self.axis(rows, x), upwards);
-        panel.curves.push(Curve::line("candidates", points(rows, (x, y))).looks(Look::Dots));
+        panel.curves.extend(self.dots(rows, (x, y)));
         panel.curves.push(Curve::line("front", points(&front, (x, y))).looks(Look::Line));
         vec![panel]
+    }
+
+    /// A dot for each candidate, with its values as tooltip. Those that break a limit are a curve
+    /// of their own.
+    fn dots(&self, rows: &[&Row], (x, y): (usize, usize)) -> Vec<Curve> {
+        let (kept, broken): (Vec<&Row>, Vec<&Row>) = rows.iter().partition(|row| row.keeps());
+        let name = if broken.is_empty() { "candidates" } else { KEEPS };
+        let curves = [(name, kept), (BREAKS, broken)].into_iter();
+        let curves = curves.filter(|(_, rows)| !rows.is_empty());
+        let dots = |(name, rows): (&str, Vec<&Row>)| {
+            let tips = self.tips(&sorted(&rows, x)).unwrap_or_default();
+            Curve::line(name, points(&rows, (x, y))).looks(Look::Dots).tipped(tips)
+        };
+        curves.map(dots).collect()
+    }
+
+    /// The values of each candidate; `None` if there are too many.
+    fn tips(&self, rows: &[&Row]) -> Option<Vec<String>> {
+        (rows.len() <= MOST_TIPS).then(|| rows.iter().map(|row| self.said(row)).collect())
+    }
+
+    /// "case 3: h_fan 40 W/(m^2 K), T_max 62.96 degC; limits kept".
+    fn said(&self, row: &Row) -> String {
+        let value = |(column, number): (&Column, &f64)| {
+            let number = significant(*number, DIGITS);
+            format!("{} {number}{}", column.name, spaced(&column.unit.text))
+        };
+        let values: Vec<String> = self.asked.columns.iter().zip(&row.numbers).map(value).collect();
+        let limits = match row.limits.as_str() {
+            "" | NONE => String::new(),
+            word => format!("; limits {word}"),
+        };
+        format!("case {}: {}{limits}", row.case + 1, values.join(", "))
+    }
+
+    /// Every candidate as a line over its axes and reports, each scaled to its range; those that
+    /// keep their limits, and the front, are drawn last. `None` for one axis.
+    pub(super) fn parallel(&self) -> Option<Figure> {
+        let rows: Vec<&Row> =
+            self.tally.points.iter().filter(|row| row.failed.is_empty()).collect();
+        let columns = (self.axes().len() + self.reports().len()).min(MOST_SCALES);
+        if self.axes().len() < 2 || rows.len() < 2 {
+            return None;
+        }
+        let stride = rows.len().div_ceil(MOST_LINES);
+        let shown: Vec<&Row> = rows.iter().step_by(stride).copied().collect();
+        let range = |place: usize| {
+            let values = rows.iter().map(|row| row.numbers[place]).filter(|x| x.is_finite());
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)))
+        };
+        let ranges: Vec<(f64, f64)> = (0..columns).map(range).collect();
+        let names = self.asked.columns[..columns].iter().map(|column| column.name.clone());
+        let x = Axis::names("", names.collect());
+        let mut panel = Panel::new(x, Axis::linear("place in the range", ""));
+        let mut group = |name: &str, place: usize, rows: &[&Row]| {
+            let line = |row: &&Row| {
+                let points =
+                    ranges.iter().zip(&row.numbers).zip(0..).map(|((&(low, high), v), i)| {
+                        let at = if high > low { (v - low) / (high - low) } else { 0.5 };
+                        (f64::from(i), at)
+                    });
+                Curve::line(name, points.collect()).as_place(place).tipped(vec![self.said(row)])
+            };
+            panel.curves.extend(rows.iter().map(line));
+        };
+        let (kept, broken): (Vec<&Row>, Vec<&Row>) = shown.iter().partition(|row| row.keeps());
+        group(BREAKS, 1, &broken);
+        group(if broken.is_empty() { "candidates" } else { KEEPS }, 0, &kept);
+        let front: Vec<&Row> = self.tally.front.rows().iter().collect();
+        group("front", 2, &front);
+        for (i, (column, (low, high))) in self.asked.columns.iter().zip(&ranges).enumerate() {
+            let unit = printed(&column.unit.text);
+            let ends = [low, high].map(|end| significant(*end, DIGITS));
+            let name = format!("{} \u{2026} {} {unit}", ends[0], ends[1]);
+            panel.moments.push(Moment { name, at: i as f64 });
+        }
+        let note = match stride > 1 {
+            true => format!("{} of {} candidates are shown", shown.len(), self.tally.rows),
+            false => String::new(),
+        };
+        Some(Figure { title: "Candidates over their values".to_owned(), note, panels: vec![panel] })
     }
 
     fn axis(&self, rows: &[&Row], place: usize) -> Axis {
@@ -89,8 +188,12 @@ impl SweepAnswer {
 }
 
 fn points(rows: &[&Row], (x, y): (usize, usize)) -> Vec<(f64, f64)> {
-    let mut points: Vec<(f64, f64)> =
-        rows.iter().map(|row| (row.numbers[x], row.numbers[y])).collect();
-    points.sort_by(|a, b| a.0.total_cmp(&b.0));
-    points
+    sorted(rows, x).iter().map(|row| (row.numbers[x], row.numbers[y])).collect()
+}
+
+/// Rows by the value at a place.
+fn sorted<'a>(rows: &[&'a Row], x: usize) -> Vec<&'a Row> {
+    let mut rows = rows.to_vec();
+    rows.sort_by(|a, b| a.numbers[x].total_cmp(&b.numbers[x]));
+    rows
 }

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 
 use lptn_netlist::{Diagnostic, Files, Functional, SweepMethod, SweepOver};
 use lptn_plot::Figure;
-use lptn_report::{Json, Page, Report, Standing, Text, TextTable, plain, significant};
+use lptn_report::{
+    Json, Page, Piece, Report, Section, Standing, Text, TextTable, plain, significant,
+};
 use lptn_study::standing::{BROKEN, KEPT, NOT_JUDGED, WARNING};
 use serde_json::{Map, Value, json};
 
@@ -331,7 +333,9 @@ impl Page for SweepAnswer {
     }
 
     fn more(&self) -> Report {
-        about::about(&self.asked.input, Known::default())
+        let parallel = self.parallel().map(|figure| Section::of("", Piece::Figure(figure)));
+        let answer = parallel.into_iter().collect();
+        Report { answer, ..about::about(&self.asked.input, Known::default()) }
     }
 }
 

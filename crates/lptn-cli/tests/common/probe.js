@@ -41,6 +41,17 @@ found.wide = texts()
     element.getBoundingClientRect().right > document.documentElement.clientWidth + 1)
   .map(element => element.textContent.trim().slice(0, 40));
 
+// which drawing a slider shows, at its end and at its beginning
+found.frames = Array.from(document.querySelectorAll("figure.frames")).map(figure => {
+  const slider = figure.querySelector("input"), frames = Array.from(figure.querySelectorAll("div"));
+  const seen = () => frames.filter(frame => frame.getClientRects().length).map(frame => frame.dataset.time);
+  if (!slider) return { count: frames.length, last: seen() };
+  const last = seen(), label = figure.querySelector("label").getClientRects().length > 0;
+  slider.value = 0;
+  slider.dispatchEvent(new Event("input"));
+  return { count: frames.length, label, last, first: seen(), told: figure.querySelector("output").textContent };
+});
+
 for (const figure of lptn.figures) {
   for (const chart of figure.charts) {
     const x = chart.data[0], of = chart.series.length - 1;

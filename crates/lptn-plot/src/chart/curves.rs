@@ -4,11 +4,14 @@ use super::area::Area;
 use super::range;
 use crate::figure::{Curve, Look, Panel, Scale};
 use crate::ink::{Ink, SERIES};
-use crate::scene::{Dash, Path, Scene, Step, Stroke, circle, line, polygon};
+use crate::scene::{Dash, Path, Scene, Step, Stroke, circle, line, polygon, rectangle};
 use crate::thin::thinned;
 
 /// Width of a curve.
 const LINE: f64 = 1.8;
+
+/// Height of a bar across.
+const BAR: f64 = 13.0;
 
 /// Radius of a dot, one among few and one among many.
 const DOTS: [f64; 2] = [3.0, 1.5];
@@ -38,6 +41,7 @@ pub(super) fn draw(scene: &mut Scene, panel: &Panel, area: &Area) {
             Look::Line | Look::Dashed => lines(scene, curve, (panel, area), stroke),
             Look::Dots => dots(scene, curve, (panel, area), ink),
             Look::Stems => stems(scene, curve, (panel, area), ink),
+            Look::Bars => across(scene, curve, (panel, area), ink),
         }
     }
 }
@@ -66,7 +70,8 @@ fn lines(scene: &mut Scene, curve: &Curve, place: Place<'_>, stroke: Stroke) {
         steps.extend(line(piece.iter().copied()).steps);
     }
     if !steps.is_empty() {
-        scene.put(Path::new(steps).stroked(stroke).tipped(&curve.name));
+        let tip = curve.tips.first().unwrap_or(&curve.name);
+        scene.put(Path::new(steps).stroked(stroke).tipped(tip));
     }
 }
 
@@ -77,6 +82,13 @@ fn dots(scene: &mut Scene, curve: &Curve, place: Place<'_>, ink: Ink) {
     let thins = place.0.x.scale == Scale::Time || curve.points.len() > MOST_DOTS;
     let most = if thins { stretches } else { curve.points.len() };
     let radius = DOTS[usize::from(curve.points.len() > stretches / 3)];
+    if !curve.tips.is_empty() {
+        let dots = curve.points.iter().zip(&curve.tips);
+        for (at, tip) in dots.filter_map(|(point, tip)| Some((on_page(place, *point)?, tip))) {
+            scene.put(circle(at, radius).filled(ink, 1.0).tipped(tip));
+        }
+        return;
+    }
     let shown = placed(&curve.points, place, most).into_iter().filter(|at| at.1.is_finite());
     let steps = |(x, y): (f64, f64)| match place.1.edge(y) {
         None => circle((x, y), radius).steps,
@@ -103,8 +115,19 @@ fn stems(scene: &mut Scene, curve: &Curve, place: Place<'_>, ink: Ink) {
     }
 }
 
+/// Draws bars across, each in the row of its point.
+fn across(scene: &mut Scene, curve: &Curve, (panel, area): Place<'_>, ink: Ink) {
+    for (i, (&(_, row), &(low, high))) in curve.points.iter().zip(&curve.spread).enumerate() {
+        if let (true, true) = (panel.shows((low, row)), panel.shows((high, row))) {
+            let (from, to, y) = (area.x_at(low), area.x_at(high), area.y_at(row));
+            let bar = rectangle((from, y - BAR / 2.0), (to - from, BAR), 0.0).filled(ink, 1.0);
+            scene.put(bar.tipped(curve.tips.get(i).unwrap_or(&curve.name)));
+        }
+    }
+}
+
 fn spread(scene: &mut Scene, curve: &Curve, place: Place<'_>, ink: Ink) {
-    if curve.spread.is_empty() {
+    if curve.spread.is_empty() || curve.look == Look::Bars {
         return;
     }
     let side = |of: fn(&(f64, f64)) -> f64| -> Vec<(f64, f64)> {

@@ -194,7 +194,9 @@ fn left_margin(figure: &Figure) -> f64 {
     let numbers = |panel: &Panel| {
         let ruler =
             Ruler::new(&panel.y, range::upward(panel), panel_height(panel, 1.0) / ROW, false);
-        let widths = ruler.ticks.iter().map(|(_, text)| width(text, SMALL, false));
+        let is_list = matches!(panel.y.scale, Scale::Names(_));
+        let size = if is_list { NAME } else { SMALL };
+        let widths = ruler.ticks.iter().map(|(_, text)| width(text, size, false));
         widths.fold(0.0, f64::max) + if ruler.title.is_empty() { 0.0 } else { NAME + 8.0 }
     };
     MARGIN + 9.0 + figure.panels.iter().map(numbers).fold(0.0, f64::max).min(WIDEST)

@@ -39,7 +39,9 @@ pub(crate) fn across<'a>(panels: impl Iterator<Item = &'a Panel>) -> Range {
         dotted |= panel.curves.iter().any(|curve| matches!(curve.look, Look::Dots | Look::Stems));
         let points = panel.curves.iter().flat_map(|curve| &curve.points);
         let moments = panel.moments.iter().map(|moment| moment.at);
-        let all = points.map(|point| point.0).chain(moments);
+        let bars = panel.curves.iter().filter(|curve| curve.look == Look::Bars);
+        let bars = bars.flat_map(|curve| &curve.spread).flat_map(|&(low, high)| [low, high]);
+        let all = points.map(|point| point.0).chain(moments).chain(bars);
         range = all.filter(|x| scale.shows(*x)).fold(range, with);
     }
     let range = some(range, *scale == Scale::Log);

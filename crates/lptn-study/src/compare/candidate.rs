@@ -173,7 +173,7 @@ impl Candidate {
         Self {
             hottest: settled.hottest.clone(),
             peak: settled.peak,
-            heat: HeatOut::over_time(network, &answer.solution, HeatOver::Cycle),
+            heat: HeatOut::over_time(network, &answer.solution, (HeatOver::Cycle, settled.period)),
             statistics: *answer.solution.statistics(),
             looks: answer.solution.looks(),
             reports: reports::named(network, answer.solution.reports_over_time()),
@@ -208,7 +208,7 @@ impl Candidate {
             reports: reports::named(network, answer.reports_over_time()),
             settled: Settled::find(system, Some(run), observer)?
                 .map(|found| found.map(|found| found.settled)),
-            heat: HeatOut::over_time(network, &answer, HeatOver::Run),
+            heat: HeatOut::over_time(network, &answer, (HeatOver::Run, run.stop - run.start)),
             statistics: *answer.statistics(),
             looks: answer.looks(),
             several: steady.and_then(doubtful),

@@ -35,6 +35,10 @@ pub struct HeatOut {
     pub all: f64,
     /// The results over which it is taken.
     pub over: HeatOver,
+    /// Mean heat flow of all sources in W.
+    pub duty: f64,
+    /// Length in s of the run or cycle; `None` in steady state.
+    pub length: Option<f64>,
     /// Share stored in nodes; 0 if they give off heat that they had. Over a run only.
     pub stored: Option<f64>,
     /// Share that each boundary takes on balance; 0 for one that gives heat. The last, `streams`,
@@ -72,12 +76,17 @@ impl HeatOut {
             found.map_or(0.0, |(_, _, power)| *power)
         };
         let paths: Vec<(Path, f64)> = paths.into_iter().map(|path| (path, flow(&path))).collect();
-        Self::of(network, (given, streams), (None, &paths))
+        let duty = network.heat_sources().map(|id| steady.source_heat[id.index()]).sum();
+        Self { duty, ..Self::of(network, (given, streams), (None, &paths)) }
     }
 
     /// Over a run or over a cycle, which stores nothing.
-    pub(crate) fn over_time(network: &Network, solution: &Solution, over: HeatOver) -> Self {
-        let Ledger { boundaries, streams, stored, .. } = solution.ledger();
+    pub(crate) fn over_time(
+        network: &Network,
+        solution: &Solution,
+        (over, length): (HeatOver, f64),
+    ) -> Self {
+        let Ledger { sources, boundaries, streams, stored, .. } = solution.ledger();
         let seen = solution.windows().iter().find(|window| window.name == WINDOW);
         let heat = |path: &Path| {
             if let (true, End::Boundary(id)) = (is_alone(network, path), path.to) {
@@ -91,7 +100,9 @@ impl HeatOut {
         let known = paths(network).into_iter().filter_map(|path| Some((path, heat(&path)?)));
         let paths: Vec<(Path, f64)> = known.collect();
         let stored = (over == HeatOver::Run).then(|| stored.iter().sum());
-        Self { over, ..Self::of(network, (boundaries, streams), (stored, &paths)) }
+        let given: f64 = network.heat_sources().map(|id| sources[id.index()]).sum();
+        let (duty, length) = (given / length, Some(length));
+        Self { over, duty, length, ..Self::of(network, (boundaries, streams), (stored, &paths)) }
     }
 
     /// Boundaries and streams by the heat that they give, paths by the heat that they bring.
@@ -119,6 +130,8 @@ impl HeatOut {
         Self {
             all,
             over: HeatOver::Steady,
+            duty: 0.0,
+            length: None,
             stored: stored.and_then(share),
             boundaries: names.zip(given.iter().map(|q| share(taken(*q)))).chain(open).collect(),
             paths: paths.iter().map(of_path).collect(),

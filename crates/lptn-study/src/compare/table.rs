@@ -181,6 +181,8 @@ fn general(rows: &[CompareRow], unit: &Unit, table: &mut TableOf<'_, CompareRow>
         of("period", "s", &|c| settled(c).map(|settled| settled.period));
     }
     of("time_to_95", "s", &|c| c.time_to_95);
+    of("duty", "W", &|c| Some(c.heat.duty));
+    of("length", "s", &|c| c.heat.length);
     of("capacity", "J/K", &|c| Some(c.capacity));
     if rows.iter().filter_map(CompareRow::candidate).any(|candidate| candidate.mass.is_some()) {
         of("mass", "kg", &|c| c.mass);

@@ -53,7 +53,9 @@ impl Page for FitCompareAnswer {
 
     fn more(&self) -> Report {
         let command = self.candidates.first().map_or(&[][..], |one| &one.input.command);
-        about::of_command(&self.hashes(), command)
+        let standing = if self.no().is_none() { Standing::Holds } else { Standing::Open };
+        let answer = about::verdict(standing, &verdict(self));
+        Report { answer, ..about::of_command(&self.hashes(), command) }
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

@@ -6,7 +6,9 @@ use lptn_fit::law::{
     Coefficient, Consistency, Exponent, Fitted, LawFit, LawStudy, LossLaw, SIGNIFICANT,
 };
 use lptn_plot::Figure;
-use lptn_report::{Json, Page, Report, Rows, Text, TextTable, decimals, fixed, plain, significant};
+use lptn_report::{
+    Json, Page, Report, Rows, Standing, Text, TextTable, decimals, fixed, plain, significant,
+};
 use lptn_solve::Table;
 use serde_json::{Value, json};
 
@@ -84,7 +86,9 @@ impl Page for FitLawAnswer {
     }
 
     fn more(&self) -> Report {
-        about::of_command(&[], &self.command)
+        let standing = if self.no().is_none() { Standing::Holds } else { Standing::Fails };
+        let answer = about::verdict(standing, &self.study.verdict());
+        Report { answer, ..about::of_command(&[], &self.command) }
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

@@ -3,6 +3,7 @@
 mod figure;
 mod interrupted;
 mod page;
+mod report;
 mod residuals;
 mod shared_noise;
 mod units;

@@ -16,9 +16,27 @@ use serde_json::{Map, Value, json};
 use super::units::common;
 use super::words::{combination, sought, state, type_of, verdict};
 use super::{FitNetworkAnswer, shared_noise};
-use crate::about::{self, Known};
 use crate::messages;
 use crate::words::{count, symbol, unverified};
+
+impl FitNetworkAnswer {
+    /// The values of parameters and of sensors.
+    pub(super) fn values(&self, text: &mut Text) {
+        let (parameters, of_sensors) = self.sought();
+        text.section().table(values(self, &parameters));
+        if !of_sensors.is_empty() {
+            text.section().table(sensors(self, &of_sensors));
+        }
+    }
+
+    /// The misfits and the correlations.
+    pub(super) fn details(&self, text: &mut Text) {
+        text.section().table(misfits(self));
+        if let Some(table) = correlations(self) {
+            text.section().table(table);
+        }
+    }
+}
 
 impl Page for FitNetworkAnswer {
     fn text(&self) -> Text {
@@ -31,15 +49,8 @@ impl Page for FitNetworkAnswer {
             count(fit.samples(), "value"),
             count(self.task.runs.len(), "record")
         ));
-        let (parameters, of_sensors) = self.sought();
-        text.section().table(values(self, &parameters));
-        if !of_sensors.is_empty() {
-            text.section().table(sensors(self, &of_sensors));
-        }
-        text.section().table(misfits(self));
-        if let Some(table) = correlations(self) {
-            text.section().table(table);
-        }
+        self.values(&mut text);
+        self.details(&mut text);
         text.conclude(13, notes(self), &verdict(self));
         text
     }
@@ -76,7 +87,7 @@ impl Page for FitNetworkAnswer {
     }
 
     fn more(&self) -> Report {
-        about::about(&self.input, Known::default())
+        self.report()
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -230,19 +241,22 @@ fn sensors(answer: &FitNetworkAnswer, all: &[usize]) -> TextTable {
         .into()
 }
 
-fn misfits(answer: &FitNetworkAnswer) -> TextTable {
-    let several = answer.task.runs.len() > 1;
+/// The name of a column, with its record if there are several.
+pub(super) fn column_name(answer: &FitNetworkAnswer, misfit: &ColumnMisfit) -> String {
+    let name = &answer.task.runs[misfit.run].columns[misfit.column].name;
     let records: Vec<String> = answer.task.runs.iter().map(|run| run.name.clone()).collect();
-    let records = differing(&records);
-    let name = |misfit: &ColumnMisfit| {
-        let name = &answer.task.runs[misfit.run].columns[misfit.column].name;
-        if several { format!("{name} ({})", records[misfit.run]) } else { name.clone() }
-    };
+    match records.len() > 1 {
+        true => format!("{name} ({})", differing(&records)[misfit.run]),
+        false => name.clone(),
+    }
+}
+
+fn misfits(answer: &FitNetworkAnswer) -> TextTable {
     // columns in different units name them one by one
     let unit = answer.task.unit().map(|ty| format!(" [{}]", symbol(&ty.dimension.si_unit())));
     let unit = unit.unwrap_or_default();
     let mut table = TextTable::of(&answer.fit.columns)
-        .left("column", name)
+        .left("column", |misfit| column_name(answer, misfit))
         .names()
         .right(format!("misfit rms{unit}"), |misfit| significant(misfit.rms, 3))
         .right(format!("mean{unit}"), |misfit| significant(misfit.mean, 2))
@@ -283,7 +297,7 @@ fn correlations(answer: &FitNetworkAnswer) -> Option<TextTable> {
     Some(table.into())
 }
 
-fn notes(answer: &FitNetworkAnswer) -> Vec<(&'static str, String)> {
+pub(super) fn notes(answer: &FitNetworkAnswer) -> Vec<(&'static str, String)> {
     let fit = &answer.fit;
     let unit = answer.task.unit().map(|ty| ty.dimension.si_unit());
     let unit = unit.unwrap_or_else(|| "sigma".to_owned());

@@ -1,5 +1,6 @@
 //! The uncertainty of a run: bands and a ranking.
 
+pub(super) mod figure;
 pub(super) mod files;
 mod inputs;
 pub(super) mod text;

@@ -1,21 +1,37 @@
 //! Lines of equal value of a field over a grid: each cell is cut into two triangles, in which the
 //! field is linear.
 
+use crate::ticks::round_step;
+
 /// A field over a grid with these ascending coordinates.
-pub(super) struct GridField {
-    pub(super) x: Vec<f64>,
-    pub(super) y: Vec<f64>,
+#[derive(Clone, Debug)]
+pub struct Lattice {
+    /// Coordinates to the right.
+    pub x: Vec<f64>,
+    /// Coordinates upwards.
+    pub y: Vec<f64>,
     /// Values, those of the first y first; NaN if there is none.
-    pub(super) values: Vec<f64>,
+    pub values: Vec<f64>,
 }
 
-impl GridField {
+/// Round values inside a range, at most `most`, at equal distances.
+pub fn levels((low, high): (f64, f64), most: usize) -> Vec<f64> {
+    let step = round_step((high - low) / most.max(1) as f64);
+    if !(step.is_finite() && step > 0.0) {
+        return Vec::new();
+    }
+    let first = (low / step + 1e-9).floor() + 1.0;
+    let all = (0..=most).map(|i| (first + i as f64) * step);
+    all.filter(|level| *level < high - 1e-9 * step).take(most).collect()
+}
+
+impl Lattice {
     fn corner(&self, (i, j): (usize, usize)) -> [f64; 3] {
         [self.x[i], self.y[j], self.values[j * self.x.len() + i]]
     }
 
     /// Points of the line of a level: pairs of points, with NaN between pairs.
-    pub(super) fn line(&self, level: f64) -> Vec<(f64, f64)> {
+    pub fn line(&self, level: f64) -> Vec<(f64, f64)> {
         let mut points = Vec::new();
         for j in 1..self.y.len() {
             for i in 1..self.x.len() {
@@ -51,14 +67,21 @@ fn crossing(triangle: [[f64; 3]; 3], level: f64) -> Option<[(f64, f64); 2]> {
 
 #[cfg(test)]
 mod tests {
-    use super::GridField;
+    use super::{Lattice, levels};
+
+    #[test]
+    fn levels_are_round_and_inside() {
+        assert_eq!(levels((32.4, 48.8), 9), [34.0, 36.0, 38.0, 40.0, 42.0, 44.0, 46.0, 48.0]);
+        assert_eq!(levels((20.0, 25.0), 5), [21.0, 22.0, 23.0, 24.0]);
+        assert_eq!(levels((20.0, 20.0), 5).len() + levels((f64::NAN, 1.0), 5).len(), 0);
+    }
 
     /// `x + 2 y` is linear, so its lines are straight on any grid.
     #[test]
     fn the_lines_of_a_plane_are_straight() {
         let (x, y) = (vec![0.0, 1.0, 3.0], vec![0.0, 2.0, 5.0]);
         let values = y.iter().flat_map(|y| x.iter().map(move |x| x + 2.0 * y)).collect();
-        let line = GridField { x, y, values }.line(4.5);
+        let line = Lattice { x, y, values }.line(4.5);
         let points: Vec<_> = line.into_iter().filter(|point| point.0.is_finite()).collect();
         assert!(points.iter().all(|(x, y)| (x + 2.0 * y - 4.5).abs() < 1e-12), "{points:?}");
         let ends =
@@ -72,7 +95,7 @@ mod tests {
     fn the_line_of_a_bowl_is_a_circle() {
         let axis: Vec<f64> = (-20..=20).map(|i| f64::from(i) * 0.1).collect();
         let values = axis.iter().flat_map(|y| axis.iter().map(move |x| x * x + y * y)).collect();
-        let mut field = GridField { x: axis.clone(), y: axis, values };
+        let mut field = Lattice { x: axis.clone(), y: axis, values };
         let line = field.line(1.0);
         let near = |(x, y): &(f64, f64)| x.is_nan() || (x.hypot(*y) - 1.0).abs() < 0.005;
         assert!(line.len() > 100 && line.iter().all(near));
