@@ -42,8 +42,8 @@ use verbs::Verb;
 /// a thousand operations.
 const KEPT: usize = 4 << 20;
 
-/// Does what the words of a command line say, the first of which is the name of the program, and
-/// gives the exit code. A program calls it once.
+/// Runs a command line, whose first word is the name of the program, and gives the exit code. A
+/// program calls it once.
 pub fn run(words: Vec<OsString>) -> u8 {
     arguments::are(words);
     drop(std::hint::black_box(Vec::<u8>::with_capacity(KEPT)));

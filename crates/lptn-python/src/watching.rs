@@ -19,7 +19,7 @@ const LOOK: Duration = Duration::from_millis(20);
 /// Stack of a thread that computes, in bytes: as large as that of a program.
 const STACK: usize = 8 << 20;
 
-/// How far the work has come: done, all, and the noun for them.
+/// Progress of the work: done, all, and the noun for them.
 type Reached = (f64, f64, &'static str);
 
 /// Doubts that were known early, Ctrl-C, and progress.

@@ -54,7 +54,7 @@ impl CompareAnswer {
         vec![Section::of("Verdict", Piece::Text(text))]
     }
 
-    /// Whether the best candidate keeps its limits.
+    /// True if the best candidate keeps its limits.
     fn standing(&self) -> Standing {
         let has = |status: &str| self.rows.iter().any(|row| row.status() == status);
         match (has("kept"), has("broken")) {

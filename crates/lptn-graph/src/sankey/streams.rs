@@ -36,7 +36,7 @@ impl Streams {
     }
 }
 
-/// What streams bring to a place beyond the bands between places, with the name of its bar.
+/// Heat that streams bring to a place beyond the bands between places, with the name of its bar.
 fn left(diagram: &Diagram, place: usize, carried: &[Option<f64>]) -> (String, f64) {
     let of = &diagram.places[place];
     let inside = (format!("streams in {}", of.name), of.within);

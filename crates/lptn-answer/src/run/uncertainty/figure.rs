@@ -1,4 +1,4 @@
-//! Uncertain results as pictures: what moves the margins of limits, and the bands of inputs.
+//! Uncertain results as pictures: causes of the margins of limits, and the bands of inputs.
 
 use lptn_network::{Item, Network, Value};
 use lptn_plot::Figure;
