@@ -37,7 +37,7 @@ pub fn write(scene: &Scene, scale: f64) -> Result<Vec<u8>, PngError> {
 /// size of the drawing.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn write_in(scene: &Scene, scale: f64, theme: Theme) -> Result<Vec<u8>, PngError> {
     let pixels = |length: f64| (length * scale).ceil().clamp(0.0, 1e9) as u32;
     let size = (pixels(scene.size.0), pixels(scene.size.1));
