@@ -1,4 +1,4 @@
-//! Why there is no gradient.
+//! Reasons why results have no gradient.
 
 use lptn_analysis::{AnalysisError, RunError};
 use lptn_assembly::ChangeError;
@@ -22,7 +22,7 @@ pub enum GradientError {
     /// The results are those of a cycle.
     Periodic = "gradient::periodic", "a periodic steady state has no gradient",
         help "take the results over a run that lasts several periods";
-    /// There is no run.
+    /// The netlist has no run.
     NoRun = "run::no_run", "the netlist has no [run], so the duration of a run is not known",
         help "add these lines:\n\n[run]\nstop = \"25 min\"";
     /// A functional that has no derivative here; its text.

@@ -87,7 +87,7 @@ impl FitNetworkAnswer {
         let small = self.task.runs.len() > FEW;
         let rows = self.drawn_rows(run, &chosen);
         let mut notes = Vec::new();
-        // of many records the first says what is alike in all
+        // the first of many records has the notes that all share
         if !small || i == 0 {
             notes.extend(self.common_notes((rows.len(), run.times.len()), &chosen));
         }
