@@ -2,7 +2,7 @@
 //! in the Jacobian.
 
 use lptn_network::{
-    ConductorFlow, ConductorId, End, InputError, Network, Received, SourceId, Vertices,
+    ConductorFlow, ConductorId, End, InputError, Item, Network, Received, SourceId, Vertices,
 };
 
 use crate::pattern::JacobianPattern;
@@ -74,6 +74,19 @@ impl Element {
             Kind::Stream(id, _) | Kind::Conductor(id) => Some(id),
             Kind::Source(_) => None,
         }
+    }
+
+    /// The item of the network that it is.
+    pub(crate) fn item(&self) -> Item {
+        match self.kind {
+            Kind::Stream(id, _) | Kind::Conductor(id) => Item::Conductor(id),
+            Kind::Source(id) => Item::Source(id),
+        }
+    }
+
+    /// Slot of the derivative of what one receiver gets by one variable.
+    pub(crate) fn slot_at(&self, receiver: usize, variable: usize) -> u32 {
+        self.slots[receiver * self.variables().len() + variable]
     }
 
     /// The vertices it depends on.

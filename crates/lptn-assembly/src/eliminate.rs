@@ -14,6 +14,8 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 use std::ops::Range;
 
+use lptn_units::Taylor;
+
 /// A conductance between two vertices: nodes come first, then boundaries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Link {
@@ -125,6 +127,16 @@ impl Elimination {
             if q != 0.0 {
                 let weights = &self.weights[star.weights.clone()];
                 weights.iter().for_each(|&(v, w)| heat[v as usize] += w * q);
+            }
+        }
+    }
+
+    /// Passes bounds on heat on, as [`Elimination::distribute`] does with heat.
+    pub(crate) fn distribute_bounds(&self, heat: &mut [Taylor]) {
+        for star in &self.stars {
+            let q = heat[star.vertex as usize];
+            for &(v, w) in &self.weights[star.weights.clone()] {
+                heat[v as usize] = heat[v as usize] + q * Taylor::constant(w);
             }
         }
     }

@@ -11,6 +11,7 @@ mod change;
 mod contents;
 mod element;
 mod eliminate;
+mod enclosure;
 mod error;
 mod heat;
 mod links;
@@ -31,6 +32,7 @@ mod workspace;
 
 pub use change::ChangeError;
 pub use element::JacobianForm;
+pub use enclosure::{BoxSlopes, FlowBounds};
 pub use error::AssemblyError;
 pub use part::Part;
 pub use pattern::JacobianPattern;

@@ -70,7 +70,8 @@ impl JacobianPattern {
         (0..self.rows.len()).filter(|slot| self.rows[*slot] == row).collect()
     }
 
-    pub(crate) fn diagonal_slot(&self, unknown: usize) -> usize {
+    /// The slot of an entry of the diagonal.
+    pub fn diagonal_slot(&self, unknown: usize) -> usize {
         self.diagonal[unknown]
     }
 

@@ -5,6 +5,7 @@
 //! time. All other nonlinear elements are in `element.rs`.
 
 use lptn_network::{ConductorFlow, ConductorId, Network, Received};
+use lptn_units::{Bounded, Scalar};
 
 use crate::element::{JacobianForm, NOWHERE, slot};
 use crate::pattern::JacobianPattern;
@@ -56,6 +57,22 @@ impl Radiation {
         let [from, to] = self.ends.map(|v| temperature[v as usize]);
         let heat = lptn_laws::radiation_conductance(self.area, from, to) * (from - to);
         [-heat, heat]
+    }
+
+    /// Bounds on the heat that leaves the first end in W.
+    pub(crate) fn leaves(&self, from: Bounded, to: Bounded) -> Bounded {
+        lptn_laws::radiation_conductance(Bounded::from_f64(self.area), from, to) * (from - to)
+    }
+
+    /// Bounds on the derivative by the temperature of one end in W/K, while that is in a range of
+    /// temperatures in K.
+    pub(crate) fn slopes_within(&self, range: [f64; 2]) -> [f64; 2] {
+        range.map(|t| 4.0 * lptn_laws::STEFAN_BOLTZMANN * self.area * t.powi(3))
+    }
+
+    /// Slot of a derivative, by row and then column.
+    pub(crate) fn slot(&self, place: usize) -> u32 {
+        self.slots[place]
     }
 
     /// Adds its heat to that of its ends in W.

@@ -267,7 +267,7 @@ impl<S: Scalar> At<'_, S> {
         }
         let value = law.values()[position].on(self.slots, self.stack);
         let value = value.map_err(|error| failed(error.into()))?;
-        match impossible(declared, value.value()) {
+        match impossible(declared, value.sample()) {
             Some(problem) => Err(failed(problem)),
             None => Ok(value),
         }

@@ -80,6 +80,7 @@ pub use network::alike::Alike;
 pub use network::axes::GridAxis;
 pub use network::body::Surface;
 pub use network::conductivity::Conductivity;
+pub use network::enclosure::InputBounds;
 pub use network::fields::ValueChange;
 pub use parameters::{ParameterError, Parameters};
 pub use parts::control::{Acts, Control, Thermostat};

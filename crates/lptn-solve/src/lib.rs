@@ -17,6 +17,7 @@ mod between;
 mod bracket;
 mod branch;
 mod cells;
+mod certify;
 mod columns;
 mod conductances;
 mod curved;
@@ -103,6 +104,7 @@ mod zeros;
 
 pub use adjoint::{Adjoint, AdjointError, Influence, ParameterSlopes};
 pub use balance::{Balance, Term};
+pub use certify::{Certificate, Uncertified};
 pub use conductances::Conductances;
 pub use driving::largest_of_inputs;
 pub use error::{SteadyError, TransientError};

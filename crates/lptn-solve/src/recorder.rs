@@ -11,6 +11,7 @@ use lptn_network::{NodeId, Positions};
 
 use crate::anchor::Anchor;
 use crate::balance::Balance;
+use crate::certify::{Certifier, Uncertified};
 use crate::columns::{Columns, Room};
 use crate::error::TransientError;
 use crate::events::Event;
@@ -145,6 +146,11 @@ impl<'a> Recorder<'a> {
     /// Takes the temperatures of pipes from their content.
     pub(crate) fn read_pipes(&mut self, pipes: &Shared) -> Result<(), NewtonError> {
         self.unfold.read_pipes(pipes)
+    }
+
+    /// Bounds on the errors of the recorded nodes in the rows, for a run from this state.
+    pub(crate) fn certifier(&self, state: &[f64]) -> Result<Certifier<'a>, Uncertified> {
+        Certifier::new(self.system, (&self.recorded, &self.rows), (state, self.tolerance))
     }
 
     pub(crate) fn system(&self) -> &'a ThermalSystem {
@@ -365,6 +371,7 @@ impl<'a> Recorder<'a> {
             tolerance: self.tolerance,
             remembered: self.remembered,
             growth: 1.0,
+            certificate: None,
             unresolved: None,
             made_up: 1.0,
             sensitivities: self.sensed.map_or_else(SensitivityRows::default, Sensed::into_rows),

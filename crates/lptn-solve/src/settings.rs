@@ -51,6 +51,8 @@ pub struct Transient {
     /// The parameters by which temperatures are differentiated, each once: see
     /// [`crate::Solution::sensitivity`].
     pub sensitivities: Vec<ParameterId>,
+    /// True if proven bounds on the errors are computed: see [`crate::Solution::certificate`].
+    pub certify: bool,
     /// The integrator; default: chosen by the network.
     pub integrator: IntegratorChoice,
     /// The linear solver; default: chosen by size.
@@ -94,6 +96,7 @@ impl Transient {
             balance: None,
             controls: Vec::new(),
             sensitivities: Vec::new(),
+            certify: false,
             integrator: IntegratorChoice::Auto,
             linear_solver: LinearSolver::Auto,
         }

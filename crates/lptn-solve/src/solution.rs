@@ -10,6 +10,7 @@ use lptn_network::{
 };
 
 use crate::balance::Balance;
+use crate::certify::{Certificate, Uncertified};
 use crate::columns::Columns;
 use crate::curved::MOST_REMEMBERED;
 use crate::events::{ControlState, Event, EventKind};
@@ -83,6 +84,8 @@ pub struct Solution {
     pub(crate) remembered: f64,
     /// Growth of errors, and the part of it that the tolerance of the integrator allows for.
     pub(crate) growth: f64,
+    /// Bounds on the errors, if they were asked for.
+    pub(crate) certificate: Option<Result<Certificate, Uncertified>>,
     /// The first time in s at which a step was accepted that passes a bend over temperature.
     pub(crate) unresolved: Option<f64>,
     pub(crate) made_up: f64,
@@ -171,6 +174,28 @@ impl Solution {
     pub fn sensitivity(&self, parameter: ParameterId, node: NodeId) -> Option<Vec<f64>> {
         let column = self.recorded.binary_search(&node).ok()?;
         self.sensitivities.of(parameter, (column, self.recorded.len()))
+    }
+
+    /// Proven bounds on the errors of the temperatures; `None` unless they were asked for
+    /// ([`Transient::certify`]).
+    ///
+    /// [`Transient::certify`]: crate::Transient::certify
+    pub fn certificate(&self) -> Option<&Result<Certificate, Uncertified>> {
+        self.certificate.as_ref()
+    }
+
+    /// Proven bounds on the error of a node in the rows in K; `None` if there are none.
+    pub fn bounds(&self, node: NodeId) -> Option<Vec<f64>> {
+        let column = self.recorded.binary_search(&node).ok()?;
+        let certificate = self.certificate.as_ref()?.as_ref().ok()?;
+        Some(certificate.rows.iter().skip(column).step_by(self.recorded.len()).copied().collect())
+    }
+
+    /// A proven bound on the error of a node at every time of the run in K; `None` if there is
+    /// none.
+    pub fn largest_bound(&self, node: NodeId) -> Option<f64> {
+        let column = self.recorded.binary_search(&node).ok()?;
+        self.certificate.as_ref()?.as_ref().ok()?.most.get(column).copied()
     }
 
     /// Heat flow of a conductor over the rows in W, positive from `from` to `to`, what `to`

@@ -12,6 +12,7 @@ use lptn_integrate::Step;
 use lptn_network::NoTangents;
 
 use crate::balance::Books;
+use crate::certify::{Certifier, Uncertified};
 use crate::curved::Curved;
 use crate::error::TransientError;
 use crate::events::{Switching, Trouble, find_crossings};
@@ -188,6 +189,8 @@ pub(crate) struct Run<'a> {
     switching: Option<Switching<'a>>,
     /// `None` without pipes.
     pipes: Option<Shared>,
+    /// `None` unless bounds on the errors are asked for.
+    certifier: Option<Result<Certifier<'a>, Uncertified>>,
     /// True if temperatures may bend at the present time, for what enters a pipe.
     bends: bool,
     /// Steps in a row, each after refused ones, that are too short to make progress.
@@ -238,6 +241,7 @@ impl<'a> Run<'a> {
         let straight = curved.is_none() && system.network().inputs_are_straight();
         let inputs = Inputs { curved: !straight, parts: segments.len() };
         let choice = (settings.integrator, inputs);
+        let certifier = settings.certify.then(|| recorder.certifier(&initial));
         let (mut integrator, method) = stepper(heat, (settings.start, &initial), &options, choice)?;
         if !carried.is_empty() {
             integrator.set_sensitivities(&carried).map_err(TransientError::Integrator)?;
@@ -253,6 +257,7 @@ impl<'a> Run<'a> {
             due: Vec::new(),
             switching,
             pipes,
+            certifier,
             bends: true,
             curved,
             guard,
@@ -360,6 +365,7 @@ impl<'a> Run<'a> {
         self.recorder.edges(cut.then_some(to), armed);
         let row = self.recorder.written();
         self.recorder.step(self.integrator.as_mut(), step.from, to).map_err(Break::Failed)?;
+        self.bound_errors((step.from, to), segment);
         if let Some(switching) = &mut self.switching {
             switching.reach(to, self.recorder.span(), self.recorder.written() > row);
         }
@@ -390,6 +396,16 @@ impl<'a> Run<'a> {
             self.guard_begins();
         }
         self.stand_or_leap(segment)
+    }
+
+    /// Bounds the errors over a part of a step.
+    fn bound_errors(&mut self, part: (f64, f64), segment: Segment) {
+        let Some(Ok(certifier)) = &mut self.certifier else { return };
+        let integrator = &mut self.integrator;
+        let state_at = &mut |time: f64, y: &mut [f64]| integrator.interpolate(time, y);
+        if let Err(reason) = certifier.step((part, segment.inside()), state_at) {
+            self.certifier = Some(Err(reason));
+        }
     }
 
     /// Positions that have to switch inside a step or at its end, and the time in s.

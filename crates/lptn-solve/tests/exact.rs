@@ -8,7 +8,7 @@
 
 use crate::common;
 
-use common::{ZERO, gearbox, nafems_t3, one_node, rc_ladder, stiff, two_masses};
+use common::{ZERO, gearbox, nafems_t3, one_node, random, rc_ladder, stiff, two_masses};
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
     Conductance, End, HeatCapacity, HeatFlow, Network, NetworkBuilder, Temperature, Time,
@@ -270,47 +270,6 @@ fn row_of(nodes: usize) -> Network {
         let next = b.node(&format!("n{i}"), HeatCapacity(1.0), zero);
         b.resistor(&format!("r{i}"), last, next, Conductance(1.0));
         last = next;
-    }
-    b.build().unwrap()
-}
-
-/// A network of nodes, massless nodes and boundaries as `seed` has it, in one or several parts.
-fn random(seed: u64) -> Network {
-    // the generator of Knuth's MMIX (The Art of Computer Programming 2, 3.3.4, table 1, line 26)
-    let mut state = seed;
-    let mut next = move |below: f64| {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        below * (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
-    let mut b = NetworkBuilder::new();
-    let count = 2.0 + next(9.0).floor();
-    let mut ends: Vec<End> = Vec::new();
-    for i in 0..count as usize {
-        let (c, t) = (10_f64.powf(next(5.0) - 2.0), Temperature::celsius(next(100.0)));
-        ends.push(b.node(&format!("n{i}"), HeatCapacity(c), t).into());
-    }
-    for i in 0..next(5.0) as usize {
-        ends.push(b.massless(&format!("m{i}")).into());
-    }
-    for i in 0..next(3.0) as usize {
-        let ramp =
-            b.expression(&format!("{i} [degC] + if(t < 30 [s], 0.2 [K/s], 0.1 [K/s]) * t"), None);
-        ends.push(b.boundary(&format!("b{i}"), ramp.unwrap()).into());
-    }
-    for i in 1..ends.len() {
-        // most are joined to one before; massless nodes have to be
-        let before = ends[next(i as f64) as usize];
-        let g = Conductance(10_f64.powf(next(5.0) - 3.0));
-        if i >= count as usize || next(1.0) < 0.8 {
-            b.resistor(&format!("r{i}"), ends[i], before, g);
-        }
-        let (a, c) = (next(ends.len() as f64) as usize, next(ends.len() as f64) as usize);
-        if a != c {
-            b.resistor(&format!("x{i}"), ends[a], ends[c], g);
-        }
-        let power = b.expression("if(t < 50 [s], 3 [W], 0.1 [W/s] * t)", None).unwrap();
-        b.source(&format!("p{i}"), ends[(i - 1).min(count as usize - 1)], power);
     }
     b.build().unwrap()
 }

@@ -11,6 +11,7 @@ mod accuracy;
 mod balance;
 mod between_kinks;
 mod beyond_tables;
+mod certificate;
 mod common;
 mod cycles;
 mod elements;

@@ -19,6 +19,7 @@
 //! # Ok::<(), lptn_units::UnitError>(())
 //! ```
 
+mod bounded;
 mod bracket;
 mod correlations;
 mod declare_errors;
@@ -54,6 +55,7 @@ mod unit_parser;
 mod unit_table;
 mod value;
 
+pub use bounded::Bounded;
 pub use correlations::Correlations;
 pub use declare_errors::Help;
 pub use dimension::Dimension;

@@ -2,6 +2,8 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::expr::Program;
+
 /// A number a [`Program`](crate::Program) can be evaluated on: `f64`, or [`Dual`](crate::Dual) for
 /// derivatives.
 ///
@@ -25,6 +27,16 @@ pub trait Scalar:
     fn from_f64(value: f64) -> Self;
     /// The value without its derivatives.
     fn value(self) -> f64;
+    /// A value for a check that refuses the number or not, and decides nothing else; that of a
+    /// range is its middle.
+    fn sample(self) -> f64 {
+        self.value()
+    }
+    /// The result of a program in another way than operation by operation, for numbers that have
+    /// one.
+    fn run_on(_program: &Program, _slots: &[Self]) -> Option<Self> {
+        None
+    }
     /// True if the value and all derivatives are finite.
     fn is_finite(self) -> bool;
     /// Absolute value.

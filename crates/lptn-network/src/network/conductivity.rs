@@ -34,7 +34,7 @@ impl Network {
     }
 
     #[inline]
-    fn shape(&self, id: ConductorId) -> Option<f64> {
+    pub(crate) fn shape(&self, id: ConductorId) -> Option<f64> {
         self.numbers.shapes.get(id.index()).copied().filter(|shape| shape.is_finite())
     }
 }

@@ -260,12 +260,12 @@ impl Network {
         }
         let conductance = at.conductance_of(law, value);
         let field = Field::law(law.formula(), 0);
-        if conductance.value() < 0.0 {
-            return Err((field, InputProblem::NegativeConductance(conductance.value())));
+        if conductance.sample() < 0.0 {
+            return Err((field, InputProblem::NegativeConductance(conductance.sample())));
         }
         let heat = conductance * (from - to);
         if !heat.is_finite() {
-            return Err((field, InputProblem::NotFinite(conductance.value())));
+            return Err((field, InputProblem::NotFinite(conductance.sample())));
         }
         Ok([-heat, heat])
     }
@@ -329,8 +329,8 @@ fn density<S: Scalar>(
 /// A property of a fluid, which is not negative.
 fn property<S: Scalar>(field: Field, value: &Value, at: &mut At<'_, S>) -> Result<S, Failed> {
     let found = value.on(at.slots, at.stack).map_err(|error| (field, error.into()))?;
-    match found.value() < 0.0 {
-        true => Err((field, InputProblem::Negative(found.value()))),
+    match found.sample() < 0.0 {
+        true => Err((field, InputProblem::Negative(found.sample()))),
         false => Ok(found),
     }
 }

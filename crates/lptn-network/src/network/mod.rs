@@ -6,6 +6,7 @@ pub(crate) mod body;
 mod capacity;
 pub(crate) mod conductivity;
 pub(crate) mod control;
+pub(crate) mod enclosure;
 pub(crate) mod fields;
 pub(crate) mod flow;
 pub(crate) mod grid;

@@ -2,6 +2,7 @@
 
 use lptn_integrate::Statistics;
 
+use crate::certify::Certifier;
 use crate::error::TransientError;
 use crate::events::Switching;
 use crate::growth;
@@ -58,6 +59,7 @@ impl Run<'_> {
         let solution = self.recorder.into_solution(books, (statistics, events), end);
         let made_up = growth::made_up(self.grows, FINEST / self.tolerance);
         let method = Some(self.method);
-        Ok(Solution { end_state, controls, method, growth, made_up, unresolved, ..solution })
+        let certificate = self.certifier.map(|c| c.map(Certifier::into_certificate));
+        Ok(Solution { end_state, controls, method, growth, made_up, unresolved, certificate, ..solution })
     }
 }

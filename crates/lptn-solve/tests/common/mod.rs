@@ -2,7 +2,7 @@
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used, reason = "each test file uses a part")]
 
 use lptn_network::{
-    Conductance, HeatCapacity, HeatFlow, Network, NetworkBuilder, NodeId, Temperature,
+    Conductance, End, HeatCapacity, HeatFlow, Network, NetworkBuilder, NodeId, Temperature,
 };
 
 pub const ZERO: f64 = 273.15;
@@ -90,5 +90,46 @@ pub fn stiff() -> Network {
     }
     b.resistor("r5", nodes[5], foot, Conductance(conductances[5]));
     b.source("heat", nodes[0], HeatFlow(50.0));
+    b.build().unwrap()
+}
+
+/// A network of nodes, massless nodes and boundaries as `seed` has it, in one or several parts.
+pub fn random(seed: u64) -> Network {
+    // the generator of Knuth's MMIX (The Art of Computer Programming 2, 3.3.4, table 1, line 26)
+    let mut state = seed;
+    let mut next = move |below: f64| {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        below * (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut b = NetworkBuilder::new();
+    let count = 2.0 + next(9.0).floor();
+    let mut ends: Vec<End> = Vec::new();
+    for i in 0..count as usize {
+        let (c, t) = (10_f64.powf(next(5.0) - 2.0), Temperature::celsius(next(100.0)));
+        ends.push(b.node(&format!("n{i}"), HeatCapacity(c), t).into());
+    }
+    for i in 0..next(5.0) as usize {
+        ends.push(b.massless(&format!("m{i}")).into());
+    }
+    for i in 0..next(3.0) as usize {
+        let ramp =
+            b.expression(&format!("{i} [degC] + if(t < 30 [s], 0.2 [K/s], 0.1 [K/s]) * t"), None);
+        ends.push(b.boundary(&format!("b{i}"), ramp.unwrap()).into());
+    }
+    for i in 1..ends.len() {
+        // most are joined to one before; massless nodes have to be
+        let before = ends[next(i as f64) as usize];
+        let g = Conductance(10_f64.powf(next(5.0) - 3.0));
+        if i >= count as usize || next(1.0) < 0.8 {
+            b.resistor(&format!("r{i}"), ends[i], before, g);
+        }
+        let (a, c) = (next(ends.len() as f64) as usize, next(ends.len() as f64) as usize);
+        if a != c {
+            b.resistor(&format!("x{i}"), ends[a], ends[c], g);
+        }
+        let power = b.expression("if(t < 50 [s], 3 [W], 0.1 [W/s] * t)", None).unwrap();
+        b.source(&format!("p{i}"), ends[(i - 1).min(count as usize - 1)], power);
+    }
     b.build().unwrap()
 }

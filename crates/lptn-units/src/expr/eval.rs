@@ -25,6 +25,9 @@ impl Program {
         {
             return Err(EvalError::MissingSlot { slot, given: slots.len() });
         }
+        if let Some(result) = S::run_on(self, slots) {
+            return Ok(result);
+        }
         stack.clear();
         stack.reserve(self.stack_size);
         let result = self.run(slots, stack, |_, _| Ok(()))?;

@@ -65,6 +65,50 @@ impl Taylor {
         all
     }
 
+    /// The same bounds on the value and the derivative, without those of higher orders: less to
+    /// compute with.
+    #[must_use]
+    pub fn first_order(mut self) -> Self {
+        self.orders = self.orders.min(1);
+        self.degree = self.degree.min(1);
+        self
+    }
+
+    /// Bounds on the Taylor coefficient of this order, up to [`Taylor::ORDER`].
+    pub fn term(&self, order: usize) -> [f64; 2] {
+        match self.terms.get(order) {
+            Some(term) if order <= self.orders => [term.low, term.high],
+            _ => [f64::NEG_INFINITY, f64::INFINITY],
+        }
+    }
+
+    /// Bounds on the derivative.
+    #[must_use]
+    pub fn derivative(self) -> Self {
+        let mut derivative = Self::flat(self.terms[1]);
+        derivative.orders = self.orders.saturating_sub(1);
+        derivative.degree = self.degree.saturating_sub(1).min(derivative.orders);
+        for k in 1..=derivative.degree {
+            derivative.terms[k] = self.terms[k + 1] * number(k + 1);
+        }
+        derivative
+    }
+
+    /// Bounds on a function with this derivative and the values of `value`.
+    #[must_use]
+    pub fn integral(self, value: Self) -> Self {
+        let mut integral = Self::flat(value.terms[0]);
+        if integral.is_unknown() || self.is_unknown() {
+            return Self::rough(integral.terms[0]);
+        }
+        integral.orders = (self.orders + 1).min(Self::ORDER);
+        integral.degree = (self.degree + 1).min(integral.orders);
+        for k in 1..=integral.degree {
+            integral.terms[k] = self.terms[k - 1] * number(k).recip();
+        }
+        integral
+    }
+
     /// A part of the straight path from one number to another: both as shares of it, from 0 to 1.
     /// It has bounds on the value and the derivative, no others.
     pub(crate) fn on_way([from, to]: [f64; 2], [first, last]: [f64; 2]) -> Self {
