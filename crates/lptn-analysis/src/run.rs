@@ -133,6 +133,12 @@ impl RunAnalysis {
         Self(Transient { jumps: Some(of), ..self.0 })
     }
 
+    /// Bounds the error of each temperature with proof: see [`Solution::certificate`].
+    #[must_use]
+    pub fn certified(self, certify: bool) -> Self {
+        Self(Transient { certify, ..self.0 })
+    }
+
     /// Keeps the heat balance of a node or boundary.
     #[must_use]
     pub fn balancing(self, balance: Option<End>) -> Self {

@@ -34,6 +34,7 @@ pub(crate) fn run(asked: &Asked<'_>, words: &Words) -> Outcome {
         format: Format::Json,
         picture: true,
         uncertainty: uncertainty(words)?,
+        certify: words.flag("certify"),
         ..RunQuestion::default()
     };
     Ok(Box::new(question.ask(input, asked.listener)?))

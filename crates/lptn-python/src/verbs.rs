@@ -63,6 +63,7 @@ verbs! {
         time_unit Text "s, min, h or d";
         balance Text "node or boundary whose heat balance is wanted";
         tolerance Text "tolerance of the integrator, such as \"1e-7 K\"";
+        certify Flag "bound the error of each temperature, with proof";
         uncertainty Text "bands from every ±: linear or sobol";
         posterior Text "file of a fit with values and covariance";
         samples Count "base points of sobol, a power of two";

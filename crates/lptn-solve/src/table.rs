@@ -156,6 +156,20 @@ impl Table {
         self
     }
 
+    /// The table of a run with the proven bounds on the errors of its temperatures, in K, after the
+    /// other columns; the same if there are none.
+    #[must_use]
+    pub fn with_bounds(mut self, solution: &Solution, selection: &Selection) -> Self {
+        for quantity in selection.quantities() {
+            let Quantity::Node(node) = quantity else { continue };
+            if let Some(values) = solution.bounds(*node) {
+                let name = format!("{}.bound", quantity.name(solution.network()));
+                self.columns.push(Column { name, unit: "K".into(), values });
+            }
+        }
+        self
+    }
+
     /// The same with its first column, times in s, in a unit of `seconds`.
     #[must_use]
     pub fn with_times_in(mut self, unit: &str, seconds: f64) -> Self {

@@ -101,6 +101,7 @@ impl CycleQuestion {
             picture: true,
             detail: self.detail,
             uncertainty: None,
+            certify: false,
             input,
         }))
     }

@@ -15,7 +15,7 @@ use serde_json::{Map, Value};
 
 use super::task::{NoSteady, RunTask};
 use super::uncertainty::{Study, elsewhere, files as uncertain};
-use super::{events, next, state, windows};
+use super::{events, next, proven, state, windows};
 use crate::answer::Answer;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
@@ -207,7 +207,8 @@ impl RunAnswer {
 
     /// Errors that are not bounded; a table has them in its notes.
     pub fn bounds(&self) -> Vec<Diagnostic> {
-        bound::doubts(&self.solution)
+        let unproven = proven::doubt(&self.solution);
+        unproven.into_iter().chain(bound::doubts(&self.solution)).collect()
     }
 
     /// The rows with their times in the requested unit.

@@ -12,7 +12,7 @@ use lptn_study::{RunEnd, StatisticsRecord};
 
 use super::answer::RunAnswer;
 use super::task::NoSteady;
-use super::{events, state, uncertainty, windows};
+use super::{events, proven, state, uncertainty, windows};
 use crate::balance;
 use crate::bound::{not_bounded, weak_ledger};
 use crate::families::Row;
@@ -93,6 +93,7 @@ impl Page for RunAnswer {
         json.table(&scale::table(&self.shown_table(), unit))?;
         json.member("events", &events::json(&self.solution))?;
         json.member("ledger", &self.ledger())?;
+        json.optional("proven", proven::members(&self.solution))?;
         let uncertain = |study| uncertainty::files::json(network, study, unit);
         let windowed = !self.task.settings.windows.is_empty();
         json.optional("limits", limits::members(network, &self.limits(), unit))?;
@@ -159,6 +160,8 @@ fn temperatures(of: &RunAnswer, nodes: &[NodeSummary]) -> TextTable {
         .right(end.as_str(), |row| number(row.item.end))
         .right("peak", |row| row.range(|node| node.peak.0, number))
         .right("at", |row| clock.text(row.item.peak.1, 3))
+        .optional()
+        .right("proven error [K]", |row| proven::cell(&of.solution, row.item.node))
         .optional()
         .right("steady", |row| row.item.steady.map_or("-".into(), number))
         .right("95 % after", |row| time_to_95(of, &row.item))
@@ -263,6 +266,7 @@ fn notes(of: &RunAnswer, nodes: &[NodeSummary]) -> Vec<String> {
             significant(time, 4)
         )
     }));
+    notes.extend(proven::notes(&of.solution));
     notes.extend(not_bounded(of.solution.network(), of.solution.trust.unbounded.as_ref()));
     notes.extend(weak_ledger(&of.solution));
     notes

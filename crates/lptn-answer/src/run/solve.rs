@@ -59,7 +59,8 @@ impl RunTask {
             .map(|asked| asked.study((&self.input, &self.settings, &self.selection), listener));
         let wall_time = begun.elapsed().as_secs_f64();
         let (lumping, table) = timed(listener, "results", || {
-            let table = Table::of_solution(&solution, &self.selection, &self.unit);
+            let table = Table::of_solution(&solution, &self.selection, &self.unit)
+                .with_bounds(&solution, &self.selection);
             (Lumping::of_run(&solution), table)
         });
         Ok(RunAnswer {
@@ -94,7 +95,7 @@ impl RunTask {
         if self.report {
             record = RecordedNodes::All;
         }
-        let mut run = run;
+        let mut run = run.certified(self.certify);
         if self.picture {
             run = run.drawing(self.selection.clone());
         }

@@ -40,6 +40,8 @@ pub struct RunQuestion {
     pub detail: Detail,
     /// The uncertainty of the results, if it is requested.
     pub uncertainty: Option<UncertaintyQuestion>,
+    /// True if errors are bounded with proof.
+    pub certify: bool,
 }
 
 impl Default for RunQuestion {
@@ -56,6 +58,7 @@ impl Default for RunQuestion {
             picture: false,
             detail: Detail::Brief,
             uncertainty: None,
+            certify: false,
         }
     }
 }
@@ -100,6 +103,8 @@ pub struct RunTask {
     pub detail: Detail,
     /// The uncertainty that is requested.
     pub uncertainty: Option<UncertaintyQuestion>,
+    /// True if errors are bounded with proof.
+    pub certify: bool,
 }
 
 impl RunQuestion {
@@ -121,7 +126,7 @@ impl RunQuestion {
         let at = at.collect::<Result<_, _>>()?;
         uncertainty::check(self.uncertainty.as_ref(), &input)?;
         let (clock, uncertainty) = (Clock(self.time_unit), self.uncertainty.clone());
-        let Self { format, report, detail, .. } = *self;
+        let Self { format, report, detail, certify, .. } = *self;
         let picture = self.picture || report;
         Ok(RunTask {
             input,
@@ -137,6 +142,7 @@ impl RunQuestion {
             picture,
             detail,
             uncertainty,
+            certify,
         })
     }
 }

@@ -27,12 +27,12 @@ pub(super) fn largest(middle: &Taylor, whole: &Taylor) -> f64 {
         *c = 0.5 * (low + high);
         spread += 0.5 * (high - low);
     }
-    polynomial(&coefficients[..order]) + spread + rest(order)
+    largest_of(&coefficients[..order]) + spread + rest(order)
 }
 
 /// The largest absolute value of a polynomial between -1 and 1, or a little more: in each part the
 /// sum of the absolute values of its terms about the middle of that part.
-fn polynomial(coefficients: &[f64]) -> f64 {
+pub(super) fn largest_of(coefficients: &[f64]) -> f64 {
     let half = (PARTS as f64).recip();
     let part = |i: usize| {
         let centre = (2 * i + 1) as f64 * half - 1.0;
@@ -57,7 +57,7 @@ mod tests {
     #[test]
     fn a_polynomial_is_bounded_closely() {
         let chebyshev = [0.0, 5.0, 0.0, -20.0, 0.0, 16.0];
-        let bound = polynomial(&chebyshev);
+        let bound = largest_of(&chebyshev);
         assert!((1.0..1.2).contains(&bound), "{bound}");
         let middle = Taylor::between(&chebyshev.map(|c| [c, c]));
         let nothing = Taylor::constant(0.0);

@@ -102,6 +102,12 @@ pub(crate) struct Certifier<'a> {
     arrived: Vec<f64>,
 }
 
+/// The way over a piece, and the distance in K of the integrator's solution from it.
+struct Piece {
+    way: Way,
+    apart: Vec<f64>,
+}
+
 /// Writes the state at a time of the present step.
 pub(crate) type StateAt<'a> = dyn FnMut(f64, &mut [f64]) -> Result<(), IntegrateError> + 'a;
 
@@ -155,16 +161,18 @@ impl<'a> Certifier<'a> {
         halvings: usize,
         state_at: &mut StateAt<'_>,
     ) -> Result<(), Uncertified> {
-        let (way, line) = self.over(((from, to), inside), state_at)?;
+        let found = self.over(((from, to), inside), state_at);
         let middle = 0.5 * (from + to);
-        if halvings < HALVINGS && from < middle && middle < to && line.adds() > self.allowed {
+        let halves = halvings < HALVINGS && from < middle && middle < to;
+        if halves && !found.as_ref().is_ok_and(|(_, line)| line.adds() <= self.allowed) {
             self.piece(((from, middle), inside), halvings + 1, state_at)?;
             return self.piece(((middle, to), inside), halvings + 1, state_at);
         }
+        let (piece, line) = found?;
         let lost = |_| Uncertified::Lost { time: from };
-        self.write_rows(((from, to), &line), &way, state_at).map_err(lost)?;
+        self.write_rows(((from, to), &line), &piece, state_at).map_err(lost)?;
         self.bound.go(&line);
-        self.arrived = (0..way.len()).map(|i| way.at(i, 1.0)).collect();
+        self.arrived = (0..piece.way.len()).map(|i| piece.way.at(i, 1.0)).collect();
         Ok(())
     }
 
@@ -173,7 +181,7 @@ impl<'a> Certifier<'a> {
         &mut self,
         ((from, to), inside): ((f64, f64), f64),
         state_at: &mut StateAt<'_>,
-    ) -> Result<(Way, Line), Uncertified> {
+    ) -> Result<(Piece, Line), Uncertified> {
         let half = 0.5 * (to - from);
         let times = way::places().map(|place| (from + half * (1.0 + place)).clamp(from, to));
         let mut samples = vec![self.arrived.clone()];
@@ -182,9 +190,11 @@ impl<'a> Certifier<'a> {
             state_at(*time, &mut state).map_err(|_| Uncertified::Lost { time: from })?;
             samples.push(state);
         }
+        let given = Way::through(&samples, &self.basis);
         let corrected = self.collocation.correct((&times, inside), &mut samples);
         corrected.ok_or(Uncertified::Lost { time: from })?;
         let way = Way::through(&samples, &self.basis);
+        let apart = (0..way.len()).map(|i| way.apart(i, &given)).collect();
         let gaps: Vec<f64> =
             self.arrived.iter().enumerate().map(|(i, t)| (way.at(i, -1.0) - t).abs()).collect();
         let before = self.bound.now().to_vec();
@@ -193,7 +203,7 @@ impl<'a> Certifier<'a> {
         if line.is_err() {
             self.bound.set(before);
         }
-        Ok((way, line?))
+        Ok((Piece { way, apart }, line?))
     }
 
     /// The bounds over a step: those that hold in a tube which they do not leave.
@@ -296,10 +306,10 @@ impl<'a> Certifier<'a> {
     fn write_rows(
         &mut self,
         ((from, to), line): ((f64, f64), &Line),
-        way: &Way,
+        Piece { way, apart }: &Piece,
         state_at: &mut StateAt<'_>,
     ) -> Result<(), IntegrateError> {
-        let most: Vec<f64> = (0..way.len()).map(|i| line.most(i)).collect();
+        let most: Vec<f64> = (0..way.len()).map(|i| line.most(i) + apart[i]).collect();
         let most = self.of_nodes(&most);
         for (known, id) in self.certificate.most.iter_mut().zip(&self.recorded) {
             *known = known.max(most[id.index()]);

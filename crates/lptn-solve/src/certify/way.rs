@@ -8,6 +8,8 @@ use std::f64::consts::PI;
 
 use lptn_units::Taylor;
 
+use super::defect::largest_of;
+
 /// Samples of a step: the polynomials have one degree less.
 pub(super) const SAMPLES: usize = 8;
 
@@ -69,6 +71,13 @@ impl Way {
     /// Temperature of an unknown in K at a place.
     pub(super) fn at(&self, unknown: usize, place: f64) -> f64 {
         self.coefficients[unknown].iter().rev().fold(0.0, |sum, c| sum * place + c)
+    }
+
+    /// A bound on the distance of an unknown from another way over the whole step, in K.
+    pub(super) fn apart(&self, unknown: usize, other: &Self) -> f64 {
+        let pairs = self.coefficients[unknown].iter().zip(&other.coefficients[unknown]);
+        let difference: Vec<f64> = pairs.map(|(a, b)| a - b).collect();
+        largest_of(&difference)
     }
 
     /// Bounds on an unknown and its Taylor coefficients over the whole step.

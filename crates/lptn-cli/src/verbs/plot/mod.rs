@@ -123,6 +123,7 @@ fn of_netlist(path: &Path, args: &PlotArgs, console: &Console) -> Result<(Source
         at: Vec::new(),
         no_files: true,
         uncertainty: run::uncertainty::UncertaintyArgs::default(),
+        certify: false,
         picture: true,
     };
     let (answer, _) = run::answer(&args, input, console)?;

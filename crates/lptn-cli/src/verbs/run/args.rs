@@ -34,6 +34,9 @@ pub(crate) struct RunArgs {
     /// Integrate to a tolerance such as 1e-7K
     #[arg(long, value_name = "K")]
     pub(crate) tolerance: Option<String>,
+    /// Bound the error of each temperature, with proof
+    #[arg(long)]
+    pub(crate) certify: bool,
     /// Write files here, not into out/NAME
     #[arg(short, long, value_name = "DIR", conflicts_with = "no_files")]
     pub(crate) output: Option<PathBuf>,
@@ -65,6 +68,7 @@ impl RunArgs {
             picture: self.picture || console.plot.is_some(),
             detail: console.detail,
             uncertainty: self.uncertainty.question(),
+            certify: self.certify,
         }
     }
 }
