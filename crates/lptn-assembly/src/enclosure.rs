@@ -1,6 +1,6 @@
 //! Bounds on the heat flow of a system along a way, and on its Jacobian in a box.
 
-use lptn_network::{End, Item, InputBounds};
+use lptn_network::{End, InputBounds, Item};
 use lptn_units::{Bounded, Scalar, Taylor};
 
 use crate::element::{Element, Kind, NOWHERE};
@@ -56,8 +56,7 @@ impl ThermalSystem {
         for element in self.elements.iter() {
             self.enclose_element(element, &mut way, (&mut heat, &mut spread))?;
         }
-        let mut flow: Vec<Taylor> =
-            self.unknowns.iter().map(|id| heat[id.index()]).collect();
+        let mut flow: Vec<Taylor> = self.unknowns.iter().map(|id| heat[id.index()]).collect();
         for link in self.links.iter() {
             let (a, b) = (link.a as usize, link.b as usize);
             let leaves = (y[a] - y[b]) * Taylor::constant(link.g);
@@ -179,7 +178,11 @@ impl ThermalSystem {
     ///
     /// # Errors
     /// As [`ThermalSystem::enclose_flow`].
-    pub fn enclose_slopes(&self, inputs: &mut InputBounds, y: &[[f64; 2]]) -> Result<BoxSlopes, Item> {
+    pub fn enclose_slopes(
+        &self,
+        inputs: &mut InputBounds,
+        y: &[[f64; 2]],
+    ) -> Result<BoxSlopes, Item> {
         let still: Vec<Taylor> = y.iter().map(|range| Taylor::between(&[*range])).collect();
         let mut way = self.way(inputs, &still)?;
         let mut low = vec![0.0; self.pattern.entries()];

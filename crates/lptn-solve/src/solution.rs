@@ -10,7 +10,7 @@ use lptn_network::{
 };
 
 use crate::balance::Balance;
-use crate::certify::{Certificate, Uncertified};
+use crate::certify::{Certificate, ROUNDING, Uncertified};
 use crate::columns::Columns;
 use crate::curved::MOST_REMEMBERED;
 use crate::events::{ControlState, Event, EventKind};
@@ -188,14 +188,19 @@ impl Solution {
     pub fn bounds(&self, node: NodeId) -> Option<Vec<f64>> {
         let column = self.recorded.binary_search(&node).ok()?;
         let certificate = self.certificate.as_ref()?.as_ref().ok()?;
-        Some(certificate.rows.iter().skip(column).step_by(self.recorded.len()).copied().collect())
+        let bounds = certificate.rows.iter().skip(column).step_by(self.recorded.len());
+        // a recovered temperature is rounded too
+        let rounded = |(bound, value): (&f64, f64)| bound + ROUNDING * value;
+        Some(bounds.zip(self.temperature(node)?).map(rounded).collect())
     }
 
     /// A proven bound on the error of a node at every time of the run in K; `None` if there is
     /// none.
     pub fn largest_bound(&self, node: NodeId) -> Option<f64> {
         let column = self.recorded.binary_search(&node).ok()?;
-        self.certificate.as_ref()?.as_ref().ok()?.most.get(column).copied()
+        let most = *self.certificate.as_ref()?.as_ref().ok()?.most.get(column)?;
+        let hottest = self.temperature(node)?.into_iter().fold(0.0, f64::max);
+        Some(most + ROUNDING * hottest)
     }
 
     /// Heat flow of a conductor over the rows in W, positive from `from` to `to`, what `to`

@@ -58,7 +58,8 @@ impl Bounded {
     }
 
     fn is_one_number(self) -> bool {
-        self.0.degree() == 0 && self.0.range().is_some_and(|[low, high]| low.to_bits() == high.to_bits())
+        self.0.degree() == 0
+            && self.0.range().is_some_and(|[low, high]| low.to_bits() == high.to_bits())
     }
 }
 

@@ -155,14 +155,17 @@ fn temperatures(of: &RunAnswer, nodes: &[NodeSummary]) -> TextTable {
     let name = |n: &NodeSummary| (network.nodes()[n.node.index()].name.clone(), 0);
     let rows = families::folded(nodes.to_vec(), of.folds(), name, |n| n.peak.0);
     let table = TextTable::of(&rows).left(format!("T [{}]", unit.text), |row| row.name.as_str());
-    families::members(table, &rows, "hottest")
+    let table = families::members(table, &rows, "hottest")
         .right("start", |row| number(row.item.start))
         .right(end.as_str(), |row| number(row.item.end))
         .right("peak", |row| row.range(|node| node.peak.0, number))
         .right("at", |row| clock.text(row.item.peak.1, 3))
-        .optional()
-        .right("proven error [K]", |row| proven::cell(&of.solution, row.item.node))
-        .optional()
+        .optional();
+    let table = match proven::is(&of.solution) {
+        true => table.right("proven error [K]", |row| proven::cell(&of.solution, row.item.node)),
+        false => table,
+    };
+    table
         .right("steady", |row| row.item.steady.map_or("-".into(), number))
         .right("95 % after", |row| time_to_95(of, &row.item))
         .left(format!("{} to {end}", start_of_curve(settings.start, clock)), |row| {

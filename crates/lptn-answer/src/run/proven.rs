@@ -20,6 +20,11 @@ fn up(bound: f64) -> String {
     text
 }
 
+/// True if there are bounds.
+pub(crate) fn is(solution: &Solution) -> bool {
+    solution.certificate().is_some_and(Result::is_ok)
+}
+
 /// The bound of a node over the run; empty if there is none.
 pub(crate) fn cell(solution: &Solution, node: NodeId) -> String {
     solution.largest_bound(node).map_or_else(String::new, up)
@@ -34,7 +39,10 @@ pub(crate) fn doubt(solution: &Solution) -> Option<Diagnostic> {
 
 /// Meaning of the bounds, and the verdicts that they prove.
 pub(crate) fn notes(solution: &Solution) -> Vec<String> {
-    if !solution.certificate().is_some_and(Result::is_ok) {
+    if let Some(unproven) = doubt(solution) {
+        return vec![unproven.message];
+    }
+    if !is(solution) {
         return Vec::new();
     }
     let network = solution.network();
@@ -77,7 +85,7 @@ fn is_proven(solution: &Solution, found: &LimitResult) -> Option<bool> {
 
 /// The bounds of all recorded nodes over the run, in K.
 pub(crate) fn members(solution: &Solution) -> Option<Value> {
-    solution.certificate()?.as_ref().ok()?;
+    is(solution).then_some(())?;
     let network = solution.network();
     let bound = |id: &NodeId| {
         let bound = solution.largest_bound(*id)?;

@@ -37,7 +37,7 @@ impl<'a> Collocation<'a> {
         pattern: &Pattern,
         basis: &[[f64; SAMPLES]; SAMPLES],
     ) -> Result<Self, FactorError> {
-        let places = places();
+        let places = places::<SAMPLES>();
         let integral = |polynomial: &[f64; SAMPLES], place: f64| {
             let terms = polynomial.iter().enumerate().rev();
             terms.fold(0.0, |sum, (k, c)| sum * place + c / (k + 1) as f64) * place

@@ -15,6 +15,8 @@
 mod bound;
 mod collocation;
 mod defect;
+#[cfg(test)]
+mod mutants;
 mod shifted;
 mod way;
 
@@ -25,10 +27,10 @@ use lptn_units::Taylor;
 
 use bound::{Bound, Line};
 use collocation::Collocation;
-use way::{SAMPLES, Way};
+use way::{INTEGRATED, SAMPLES, Way};
 
 /// Rounding errors of a sum of heats, as a share of the sum of their absolute values.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
+pub(crate) const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Times that a tube around the way is widened before the step counts as lost.
 const WIDENED: usize = 24;
@@ -89,6 +91,8 @@ pub(crate) struct Certifier<'a> {
     system: &'a ThermalSystem,
     scope: Evaluation,
     basis: [[f64; SAMPLES]; SAMPLES],
+    /// The same for samples of the integrator's solution.
+    integrated: [[f64; INTEGRATED]; INTEGRATED],
     collocation: Collocation<'a>,
     /// The most in K that a piece may add to a bound without being halved.
     allowed: f64,
@@ -133,6 +137,7 @@ impl<'a> Certifier<'a> {
             system,
             scope: system.network().evaluation(),
             basis,
+            integrated: way::basis(),
             collocation,
             allowed: SHARE * tolerance,
             bound,
@@ -183,18 +188,23 @@ impl<'a> Certifier<'a> {
         state_at: &mut StateAt<'_>,
     ) -> Result<(Piece, Line), Uncertified> {
         let half = 0.5 * (to - from);
-        let times = way::places().map(|place| (from + half * (1.0 + place)).clamp(from, to));
-        let mut samples = vec![self.arrived.clone()];
-        for time in &times[1..] {
+        let time_of = |place: f64| (from + half * (1.0 + place)).clamp(from, to);
+        let times = way::places::<SAMPLES>().map(time_of);
+        let mut state_of = |time: f64| {
             let mut state = vec![0.0; self.arrived.len()];
-            state_at(*time, &mut state).map_err(|_| Uncertified::Lost { time: from })?;
-            samples.push(state);
-        }
-        let given = Way::through(&samples, &self.basis);
+            state_at(time, &mut state).map_err(|_| Uncertified::Lost { time: from })?;
+            Ok(state)
+        };
+        let mut samples =
+            times[1..].iter().map(|time| state_of(*time)).collect::<Result<Vec<_>, _>>()?;
+        samples.insert(0, self.arrived.clone());
+        let given = way::places::<INTEGRATED>().map(|place| state_of(time_of(place)));
         let corrected = self.collocation.correct((&times, inside), &mut samples);
         corrected.ok_or(Uncertified::Lost { time: from })?;
         let way = Way::through(&samples, &self.basis);
-        let apart = (0..way.len()).map(|i| way.apart(i, &given)).collect();
+        let given = given.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let values = |i: usize| std::array::from_fn(|place| given[place][i]);
+        let apart = (0..way.len()).map(|i| way.apart(i, values(i), &self.integrated)).collect();
         let gaps: Vec<f64> =
             self.arrived.iter().enumerate().map(|(i, t)| (way.at(i, -1.0) - t).abs()).collect();
         let before = self.bound.now().to_vec();
@@ -228,8 +238,7 @@ impl<'a> Certifier<'a> {
             self.bound.now().iter().map(|w| (WIDER * w).max(LEAST_WIDTH)).collect();
         for _ in 0..WIDENED {
             let ranges = whole.iter().zip(&widths);
-            let tube: Vec<[f64; 2]> =
-                ranges.map(|([low, high], w)| [low - w, high + w]).collect();
+            let tube: Vec<[f64; 2]> = ranges.map(|([low, high], w)| [low - w, high + w]).collect();
             let slopes = self.system.enclose_slopes(&mut still, &tube);
             let slopes = slopes.map_err(|item| self.no_law(item, from))?;
             let mut all = defect.clone();
@@ -269,7 +278,8 @@ impl<'a> Certifier<'a> {
         let defect = |i: usize| {
             let stores = Taylor::constant(mass[i] * per_second);
             let taken = |flow: Taylor, way: Taylor| flow - stores * way.derivative();
-            let bound = defect::largest(&taken(at.flow[i], middle[i]), &taken(over.flow[i], whole[i]));
+            let bound =
+                defect::largest(&taken(at.flow[i], middle[i]), &taken(over.flow[i], whole[i]));
             let [low, high] = whole[i].term(1);
             bound + over.spread[i] + ROUNDING * mass[i] * per_second * low.abs().max(high.abs())
         };

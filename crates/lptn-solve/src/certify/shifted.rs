@@ -20,8 +20,7 @@ impl Shifted {
 
     /// Makes the factors for a time in s, unless they are known.
     pub(super) fn factorize(&mut self, time: f64, matrix: &[f64]) -> Option<()> {
-        let is_same =
-            |(of, at): &(Vec<f64>, f64)| at.to_bits() == time.to_bits() && of == matrix;
+        let is_same = |(of, at): &(Vec<f64>, f64)| at.to_bits() == time.to_bits() && of == matrix;
         if self.of.as_ref().is_some_and(is_same) {
             return Some(());
         }

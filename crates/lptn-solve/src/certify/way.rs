@@ -13,6 +13,10 @@ use super::defect::largest_of;
 /// Samples of a step: the polynomials have one degree less.
 pub(super) const SAMPLES: usize = 8;
 
+/// Samples that determine the solution of every integrator: the one-step method has polynomials of
+/// degree 11, CVODE of degree 5.
+pub(super) const INTEGRATED: usize = 13;
+
 /// Polynomials of one step in a variable from -1 at its start to 1 at its end.
 #[derive(Clone, Debug)]
 pub(super) struct Way {
@@ -22,25 +26,24 @@ pub(super) struct Way {
 
 /// The places of the samples: the extrema of a Chebyshev polynomial, at which interpolation is
 /// well conditioned, from the start to the end.
-pub(super) fn places() -> [f64; SAMPLES] {
-    let last = (SAMPLES - 1) as f64;
+pub(super) fn places<const N: usize>() -> [f64; N] {
+    let last = (N - 1) as f64;
     std::array::from_fn(|i| -(PI * i as f64 / last).cos())
 }
 
 /// For each sample the coefficients of the polynomial that is 1 there and 0 at the others.
-pub(super) fn basis() -> [[f64; SAMPLES]; SAMPLES] {
-    let places = places();
+pub(super) fn basis<const N: usize>() -> [[f64; N]; N] {
+    let places = places::<N>();
     std::array::from_fn(|i| {
-        let mut product = [0.0; SAMPLES];
+        let mut product = [0.0; N];
         product[0] = 1.0;
-        for (j, place) in places.iter().enumerate().filter(|(j, _)| *j != i) {
+        for (_, place) in places.iter().enumerate().filter(|(j, _)| *j != i) {
             // times (s - place) / (places[i] - place)
             let over = (places[i] - place).recip();
-            for k in (0..SAMPLES).rev() {
+            for k in (0..N).rev() {
                 let below = if k == 0 { 0.0 } else { product[k - 1] };
                 product[k] = (below - product[k] * place) * over;
             }
-            debug_assert!(j < SAMPLES);
         }
         product
     })
@@ -73,10 +76,19 @@ impl Way {
         self.coefficients[unknown].iter().rev().fold(0.0, |sum, c| sum * place + c)
     }
 
-    /// A bound on the distance of an unknown from another way over the whole step, in K.
-    pub(super) fn apart(&self, unknown: usize, other: &Self) -> f64 {
-        let pairs = self.coefficients[unknown].iter().zip(&other.coefficients[unknown]);
-        let difference: Vec<f64> = pairs.map(|(a, b)| a - b).collect();
+    /// A bound on the distance in K of an unknown from the integrator's solution, of which these
+    /// are the values at [`places`].
+    pub(super) fn apart(
+        &self,
+        unknown: usize,
+        values: [f64; INTEGRATED],
+        basis: &[[f64; INTEGRATED]; INTEGRATED],
+    ) -> f64 {
+        let mut difference = [0.0; INTEGRATED];
+        for ((value, place), weights) in values.iter().zip(places::<INTEGRATED>()).zip(basis) {
+            let apart = value - self.at(unknown, place);
+            difference.iter_mut().zip(weights).for_each(|(c, w)| *c += w * apart);
+        }
         largest_of(&difference)
     }
 
@@ -110,7 +122,7 @@ mod tests {
     #[test]
     fn polynomials_pass_through_their_samples() {
         let of = |s: f64| s.powi(7) - 2.0 * s.powi(3) + 300.0;
-        let samples: Vec<Vec<f64>> = places().iter().map(|s| vec![of(*s)]).collect();
+        let samples: Vec<Vec<f64>> = places::<SAMPLES>().iter().map(|s| vec![of(*s)]).collect();
         let way = Way::through(&samples, &basis());
         for i in 0..=40 {
             let s = f64::from(i) / 20.0 - 1.0;

@@ -60,6 +60,15 @@ impl Run<'_> {
         let made_up = growth::made_up(self.grows, FINEST / self.tolerance);
         let method = Some(self.method);
         let certificate = self.certifier.map(|c| c.map(Certifier::into_certificate));
-        Ok(Solution { end_state, controls, method, growth, made_up, unresolved, certificate, ..solution })
+        Ok(Solution {
+            end_state,
+            controls,
+            method,
+            growth,
+            made_up,
+            unresolved,
+            certificate,
+            ..solution
+        })
     }
 }
