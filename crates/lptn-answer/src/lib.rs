@@ -42,6 +42,7 @@ mod over_time;
 pub mod period;
 pub mod plan;
 pub mod plot;
+mod proven;
 pub mod ranges;
 pub mod rank;
 pub mod reduce;

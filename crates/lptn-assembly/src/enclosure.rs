@@ -20,6 +20,20 @@ pub struct BoxSlopes {
     pub jumps: Vec<f64>,
 }
 
+impl BoxSlopes {
+    /// The slopes in W/K that let an error grow most: the diagonal from above, the others in
+    /// absolute value.
+    pub fn worst(&self, system: &ThermalSystem) -> Vec<f64> {
+        let magnitude = |(low, high): (&f64, &f64)| low.abs().max(high.abs());
+        let mut worst: Vec<f64> = self.low.iter().zip(&self.high).map(magnitude).collect();
+        for unknown in 0..self.jumps.len() {
+            let slot = system.pattern.diagonal_slot(unknown);
+            worst[slot] = self.high[slot];
+        }
+        worst
+    }
+}
+
 /// Bounds on the flow of a system along a way.
 #[derive(Clone, Debug)]
 pub struct FlowBounds {

@@ -67,7 +67,9 @@ pub(crate) fn steady(asked: &Asked<'_>, words: &Words) -> Outcome {
                 "`period` and `tolerance` need `periodic`: write periodic=True".to_owned(),
             ));
         }
-        let question = SteadyQuestion { select, temperature_unit, balance, format, detail };
+        let certify = words.flag("certify");
+        let question =
+            SteadyQuestion { select, temperature_unit, balance, format, detail, certify };
         return Ok(Box::new(question.ask(input, asked.listener)?));
     }
     let report = false;

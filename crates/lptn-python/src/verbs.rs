@@ -75,6 +75,7 @@ verbs! {
         select Texts "columns to keep, such as \"*.T\"";
         temperature_unit Text "degC, K, degF or degR";
         balance Text "node or boundary whose heat balance is wanted";
+        certify Flag "bound the error of each temperature, with proof";
         periodic Flag "the periodic steady state of inputs that repeat";
         period Text "the period; default: that of the signals";
         tolerance Text "tolerance of the integrator, such as \"1e-7 K\"";

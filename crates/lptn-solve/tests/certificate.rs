@@ -14,7 +14,7 @@ use crate::common;
 use common::{gearbox, nafems_t3, random, rc_ladder, stiff, two_masses};
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Network, Time};
-use lptn_solve::{ExactSolution, Solution, Transient};
+use lptn_solve::{ExactSolution, Solution, SteadyState, Transient};
 
 /// `LPTN_CERTIFIED` asks for more networks than the usual ones.
 fn count(usual: u64) -> u64 {
@@ -75,7 +75,7 @@ fn linear_networks_stay_within_their_bounds() {
         for (network, stop) in &fixed {
             check_exactly(network, tolerance, *stop, &mut ratios);
         }
-        (0..count(40)).for_each(|seed| check_exactly(&random(seed), tolerance, 100.0, &mut ratios));
+        (0..count(20)).for_each(|seed| check_exactly(&random(seed), tolerance, 100.0, &mut ratios));
         let (median, most) = spread(&mut ratios);
         println!("linear, {tolerance:e} K: bound over error {median:.2}, 95 % below {most:.1}");
         assert!(median < 5.0 && most < 50.0, "{median} {most}");
@@ -208,6 +208,24 @@ impl Written {
         heat.iter().zip(&self.capacities).map(|(q, c)| q / c).collect()
     }
 
+    /// The temperatures in K near these at which nothing changes.
+    fn rest(&self, near: &[f64]) -> Vec<f64> {
+        let mut t = near.to_vec();
+        for _ in 0..20 {
+            let now = self.slopes(&t);
+            let mut rows: Vec<Vec<f64>> = vec![Vec::new(); t.len()];
+            for j in 0..t.len() {
+                let mut moved = t.clone();
+                moved[j] += 1e-3;
+                let slopes = self.slopes(&moved);
+                (0..t.len()).for_each(|i| rows[i].push((slopes[i] - now[i]) / 1e-3));
+            }
+            let step = solved(rows, now.iter().map(|slope| -slope).collect());
+            t.iter_mut().zip(step).for_each(|(t, step)| *t += step);
+        }
+        t
+    }
+
     /// Temperatures at twenty equal times after the start in K, by Runge-Kutta's method in steps
     /// of `step` s.
     fn run(&self, stop: f64, steps: usize) -> Vec<Vec<f64>> {
@@ -233,11 +251,32 @@ impl Written {
     }
 }
 
+/// Gauss's elimination with pivots.
+fn solved(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
+    let n = b.len();
+    for k in 0..n {
+        let pivot = (k..n).max_by(|i, j| a[*i][k].abs().total_cmp(&a[*j][k].abs())).unwrap();
+        a.swap(k, pivot);
+        b.swap(k, pivot);
+        for i in k + 1..n {
+            let factor = a[i][k] / a[k][k];
+            let row = a[k].clone();
+            a[i].iter_mut().zip(row).for_each(|(x, y)| *x -= factor * y);
+            b[i] -= factor * b[k];
+        }
+    }
+    for k in (0..n).rev() {
+        let known: f64 = (k + 1..n).map(|j| a[k][j] * b[j]).sum();
+        b[k] = (b[k] - known) / a[k][k];
+    }
+    b
+}
+
 #[test]
 fn nonlinear_networks_stay_within_their_bounds() {
     const STOP: f64 = 200.0;
     let mut all = [1e-3, 1e-5, 1e-7].map(|tolerance| (tolerance, Vec::new()));
-    for seed in 0..count(40) {
+    for seed in 0..count(20) {
         let written = Written::new(seed);
         let network = lptn_netlist::parse("net.toml", &written.text());
         let network = network.unwrap_or_else(|e| panic!("{e}\n{}", written.text())).network;
@@ -255,6 +294,36 @@ fn nonlinear_networks_stay_within_their_bounds() {
         println!("nonlinear, {tolerance:e} K: bound over error {median:.2}, 95 % below {most:.1}");
         assert!(median < 10.0 && most < 100.0, "{median} {most}");
     }
+}
+
+/// Newton's method on the network that is written out, with differences as slopes, against the
+/// bounds of `steady`: it ends at the rounding of the heats.
+#[test]
+fn steady_states_stay_within_their_bounds() {
+    let mut proven = 0;
+    for seed in 0..count(20) {
+        let written = Written::new(seed);
+        let network = lptn_netlist::parse("net.toml", &written.text()).unwrap().network;
+        let system = ThermalSystem::assemble(&network).unwrap();
+        // some heats grow faster with temperature than they are removed
+        let Ok(steady) = SteadyState::solve(&system, 0.0) else { continue };
+        let Ok(bounds) = steady.proven_errors(&system) else { continue };
+        proven += 1;
+        let right = written.rest(&steady.temperatures);
+        for ((found, right), bound) in steady.temperatures.iter().zip(&right).zip(&bounds) {
+            let error = (found - right).abs();
+            assert!(error <= bound + 2e-12, "seed {seed}: {error:e} K, bound {bound:e}");
+            assert!(*bound < 1e-7, "seed {seed}: {bound:e}");
+        }
+        // a state beside it lies outside of its own bounds, or has none
+        let mut beside = steady.state.clone();
+        beside.temperatures[0] += 1e-3;
+        if let Ok(wider) = beside.proven_errors(&system) {
+            assert!(wider[0] >= 1e-3 - 1e-9, "seed {seed}: {:e}", wider[0]);
+        }
+    }
+    println!("{proven} steady states of {} are proven", count(20));
+    assert!(proven * 10 >= count(20) * 8, "{proven}");
 }
 
 /// `shared/findings`: heat that grows by e^5 in 500 s, whose error was 404 tolerances without a
@@ -294,8 +363,9 @@ fn networks_that_are_not_covered_say_so() {
     ));
     assert_eq!(code, "certify::switches");
     assert!(text.contains("`heater` switches"), "{text}");
-    let (code, text) =
-        about("[node]\nbody = { C = \"1 [J/K] + 1 [J/K^2] * (T - 0 [degC])\", T0 = \"20 degC\" }\n");
+    let (code, text) = about(
+        "[node]\nbody = { C = \"1 [J/K] + 1 [J/K^2] * (T - 0 [degC])\", T0 = \"20 degC\" }\n",
+    );
     assert_eq!(code, "certify::node");
     assert!(text.contains("`body` has a capacity that changes"), "{text}");
 }

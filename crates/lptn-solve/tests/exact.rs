@@ -11,7 +11,7 @@ use crate::common;
 use common::{ZERO, gearbox, nafems_t3, one_node, random, rc_ladder, stiff, two_masses};
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    Conductance, End, HeatCapacity, HeatFlow, Network, NetworkBuilder, Temperature, Time,
+    Conductance, HeatCapacity, HeatFlow, Network, NetworkBuilder, Temperature, Time,
 };
 use lptn_solve::{
     ExactError, ExactSolution, NoReference, Reference, Transient, Verification, allowed_error,

@@ -15,14 +15,14 @@ use serde_json::{Map, Value};
 
 use super::task::{NoSteady, RunTask};
 use super::uncertainty::{Study, elsewhere, files as uncertain};
-use super::{events, next, proven, state, windows};
+use super::{events, next, state, windows};
 use crate::answer::Answer;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::limits::{self, Verdict};
 use crate::lumping::Detail;
 use crate::words::unverified_names;
-use crate::{about, bound, gaps, lumping, over_time, ranges, scale, trust};
+use crate::{about, bound, gaps, lumping, over_time, proven, ranges, scale, trust};
 
 /// A run, as far as it came.
 #[derive(Debug)]
@@ -207,7 +207,7 @@ impl RunAnswer {
 
     /// Errors that are not bounded; a table has them in its notes.
     pub fn bounds(&self) -> Vec<Diagnostic> {
-        let unproven = proven::doubt(&self.solution);
+        let unproven = proven::unproven(&self.solution);
         unproven.into_iter().chain(bound::doubts(&self.solution)).collect()
     }
 

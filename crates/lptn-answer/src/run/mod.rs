@@ -6,7 +6,6 @@ pub mod figure;
 mod next;
 mod observed;
 pub(crate) mod page;
-mod proven;
 mod report;
 mod solve;
 mod state;

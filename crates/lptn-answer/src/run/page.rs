@@ -12,7 +12,7 @@ use lptn_study::{RunEnd, StatisticsRecord};
 
 use super::answer::RunAnswer;
 use super::task::NoSteady;
-use super::{events, proven, state, uncertainty, windows};
+use super::{events, state, uncertainty, windows};
 use crate::balance;
 use crate::bound::{not_bounded, weak_ledger};
 use crate::families::Row;
@@ -20,7 +20,7 @@ use crate::lumping::Detail;
 use crate::messages;
 use crate::steady::others;
 use crate::words::{MOST_NODES, symbol};
-use crate::{families, limits, lumping, over_time, scale};
+use crate::{families, limits, lumping, over_time, proven, scale};
 
 /// Characters of a curve.
 const CURVE: usize = 16;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use lptn_analysis::{LimitResult, Trusted};
 use lptn_netlist::{Diagnostic, Files};
 use lptn_report::{Clock, Format};
-use lptn_solve::{Balance, SteadyError, SteadyState, Table};
+use lptn_solve::{Balance, SteadyError, SteadyState, Table, Uncertified};
 use lptn_units::Unit;
 
 use crate::answer::Answer;
@@ -19,7 +19,7 @@ use crate::limits::{Judgement, Verdict};
 use crate::listener::{Listener, timed};
 use crate::lumping::Detail;
 use crate::refused::steady_failed;
-use crate::{balance, select, trust};
+use crate::{balance, proven, select, trust};
 
 pub use doubts::{adiabatic, inputs_vary, others};
 
@@ -36,6 +36,8 @@ pub struct SteadyQuestion {
     pub format: Format,
     /// Amount of detail in a table.
     pub detail: Detail,
+    /// True if errors are bounded with proof.
+    pub certify: bool,
 }
 
 impl Default for SteadyQuestion {
@@ -46,6 +48,7 @@ impl Default for SteadyQuestion {
             balance: None,
             format: Format::Table,
             detail: Detail::Brief,
+            certify: false,
         }
     }
 }
@@ -69,6 +72,8 @@ pub struct SteadyAnswer {
     pub all: bool,
     /// True if large families are one row.
     fold: bool,
+    /// Proven bounds on the error of each node in K, if they were requested.
+    pub proven: Option<Result<Vec<f64>, Uncertified>>,
 }
 
 impl SteadyQuestion {
@@ -92,7 +97,8 @@ impl SteadyQuestion {
         let balance = balance.map(|of| steady.balance(network, of));
         let all = self.select.is_empty();
         let fold = all && self.detail < Detail::Verbose;
-        Ok(SteadyAnswer { steady, table, unit, limits, balance, all, fold, input })
+        let proven = self.certify.then(|| steady.proven_errors(&system));
+        Ok(SteadyAnswer { steady, table, unit, limits, balance, all, fold, proven, input })
     }
 }
 
@@ -127,7 +133,9 @@ impl SteadyAnswer {
         let vary = inputs_vary((netlist, file.as_deref()), &self.steady, &self.limits);
         let adiabatic = adiabatic(&netlist.network, &self.steady);
         let others = others(&netlist.network, &self.steady, &self.unit);
-        vary.into_iter().chain(adiabatic).chain(others).collect()
+        let unproven =
+            self.proven.iter().filter_map(|proven| Some(proven::doubt(proven.as_ref().err()?)));
+        vary.into_iter().chain(adiabatic).chain(others).chain(unproven).collect()
     }
 
     /// Doubts in the numbers, which no table shows.

@@ -15,7 +15,7 @@ use crate::about::{self, Known};
 use crate::balance;
 use crate::limits;
 use crate::words::{difference, largest, some_of, symbol};
-use crate::{families, ranges, scale};
+use crate::{families, proven, ranges, scale};
 
 use super::SteadyAnswer;
 
@@ -251,6 +251,9 @@ impl Page for SteadyAnswer {
         if let Some(of) = &self.balance {
             balance::section(&mut text, network, (of, None));
         }
+        if let Some(Ok(bounds)) = &self.proven {
+            text.section().sentence("note: ", &proven::of_steady(bounds));
+        }
         for doubt in self.noted() {
             text.section().sentence("note: ", &doubt.message);
         }
@@ -276,6 +279,9 @@ impl Page for SteadyAnswer {
         json.optional("limits", limits::members(&netlist.network, &self.limits, &self.unit))?;
         let outside = ranges::members(&netlist.network, &self.steady.trust.out_of_range, false);
         json.optional("out_of_range", outside)?;
+        let proven = self.proven.iter().flatten().next();
+        let proven = proven.map(|bounds| proven::steady_members(&netlist.network, bounds));
+        json.optional("proven", proven)?;
         json.optional(
             "balance",
             self.balance.as_ref().map(|of| balance::json(&netlist.network, of)),

@@ -18,6 +18,7 @@ mod defect;
 #[cfg(test)]
 mod mutants;
 mod shifted;
+mod steady;
 mod way;
 
 use lptn_assembly::ThermalSystem;
@@ -243,7 +244,7 @@ impl<'a> Certifier<'a> {
             let slopes = slopes.map_err(|item| self.no_law(item, from))?;
             let mut all = defect.clone();
             all.iter_mut().zip(&slopes.jumps).for_each(|(all, jump)| *all += jump);
-            let matrix = self.worst(&slopes.low, &slopes.high);
+            let matrix = slopes.worst(self.system);
             self.round(&matrix, &whole, &mut all);
             let line = self.bound.over(to - from, &matrix, &all).ok_or_else(lost)?;
             let reached: Vec<f64> = (0..widths.len()).map(|i| line.most(i)).collect();
@@ -289,17 +290,6 @@ impl<'a> Certifier<'a> {
         }
         let ranges = whole.iter().map(|bounds| bounds.range().unwrap_or([f64::NAN; 2])).collect();
         Ok((all, ranges))
-    }
-
-    /// The entries of the slopes that let an error grow most.
-    fn worst(&self, low: &[f64], high: &[f64]) -> Vec<f64> {
-        let mut worst: Vec<f64> =
-            low.iter().zip(high).map(|(low, high)| low.abs().max(high.abs())).collect();
-        for i in 0..self.arrived.len() {
-            let slot = self.system.pattern().diagonal_slot(i);
-            worst[slot] = high[slot];
-        }
-        worst
     }
 
     /// Adds the rounding of the heats.

@@ -28,6 +28,7 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
         balance: args.balance.clone(),
         format: args.shown.format,
         detail: console.detail,
+        certify: args.certify,
     };
     let input = console.phases.timed("read", || Input::load(&args.source))?;
     let answer = question.ask(Arc::new(input), &console.listening())?;

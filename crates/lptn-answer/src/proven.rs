@@ -4,7 +4,7 @@ use lptn_analysis::LimitResult;
 use lptn_netlist::Diagnostic;
 use lptn_network::{Network, NodeId, list_of_names};
 use lptn_report::significant;
-use lptn_solve::Solution;
+use lptn_solve::{Solution, Uncertified};
 use serde_json::{Map, Value, json};
 
 /// Digits of a bound.
@@ -31,15 +31,36 @@ pub(crate) fn cell(solution: &Solution, node: NodeId) -> String {
 }
 
 /// The doubt that a bound was asked for and not found.
-pub(crate) fn doubt(solution: &Solution) -> Option<Diagnostic> {
-    let reason = solution.certificate()?.as_ref().err()?;
-    let text = format!("the errors of this run are not proven: {reason}");
-    Some(Diagnostic::warning(reason.code(), text).help(reason.help()))
+pub(crate) fn unproven(solution: &Solution) -> Option<Diagnostic> {
+    Some(doubt(solution.certificate()?.as_ref().err()?))
+}
+
+/// The same for a reason.
+pub(crate) fn doubt(reason: &Uncertified) -> Diagnostic {
+    let text = format!("the errors are not proven: {reason}");
+    Diagnostic::warning(reason.code(), text).help(reason.help())
+}
+
+/// The meaning of the bounds of a steady state.
+pub(crate) fn of_steady(bounds: &[f64]) -> String {
+    let most = up(bounds.iter().copied().fold(0.0, f64::max));
+    format!(
+        "proven error: a steady state of the network is within {most} K of every temperature, and \
+         no other one is"
+    )
+}
+
+/// The bounds of a steady state, in K.
+pub(crate) fn steady_members(network: &Network, bounds: &[f64]) -> Value {
+    let named = network.nodes().iter().zip(bounds);
+    let errors: Map<String, Value> =
+        named.map(|(node, bound)| (node.name.clone(), json!(bound))).collect();
+    json!({ "unit": "K", "error": errors })
 }
 
 /// Meaning of the bounds, and the verdicts that they prove.
 pub(crate) fn notes(solution: &Solution) -> Vec<String> {
-    if let Some(unproven) = doubt(solution) {
+    if let Some(unproven) = unproven(solution) {
         return vec![unproven.message];
     }
     if !is(solution) {
@@ -61,10 +82,16 @@ pub(crate) fn notes(solution: &Solution) -> Vec<String> {
     let proven = Some(of(true)).filter(|names| !names.is_empty());
     let open = Some(of(false)).filter(|names| !names.is_empty());
     let proven = proven.map(|names| {
-        format!("proven verdicts: {}, whose margins are larger than the errors", list_of_names(&names))
+        format!(
+            "proven verdicts: {}, whose margins are larger than the errors",
+            list_of_names(&names)
+        )
     });
     let open = open.map(|names| {
-        format!("the proven errors do not decide {}: choose a smaller --tolerance", list_of_names(&names))
+        format!(
+            "the proven errors do not decide {}: choose a smaller --tolerance",
+            list_of_names(&names)
+        )
     });
     [meaning.to_owned()].into_iter().chain(proven).chain(open).collect()
 }
