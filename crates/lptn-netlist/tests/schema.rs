@@ -95,9 +95,13 @@ fn every_netlist_that_is_right_is_accepted() {
         assert_eq!(refused(&schema, &schema, &value), None, "{}", place.display());
         count += 1;
     };
-    for folder in
-        ["networks", "tests", "crates/lptn-netlist/tests/good", "crates/lptn-netlist/tests/expand", "docs"]
-    {
+    for folder in [
+        "networks",
+        "tests",
+        "crates/lptn-netlist/tests/good",
+        "crates/lptn-netlist/tests/expand",
+        "docs",
+    ] {
         for path in files(&root().join(folder), "toml") {
             check(&std::fs::read_to_string(&path).unwrap(), &path);
         }
