@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Writes the tables of docs/speed.md, between its two marks, from what `bench.py --record` kept.
+"""Writes the tables of docs/speed.md, between its two marks, and every figure into figures.csv, from
+what `bench.py --record` kept.
 
 page.py PROGRAM      the lptn that was measured; results of other builds are left out
 """
 
+import csv
 import json
 import platform
 import subprocess
@@ -14,6 +16,7 @@ import laws
 import tools
 
 PAGE = Path(__file__).parent.parent / "docs/speed.md"
+FIGURES = Path(__file__).parent / "figures.csv"
 BEGIN, END = "<!-- written by make bench: begin -->", "<!-- written by make bench: end -->"
 ORDER = ["two_node", "ladder", "stiff", "grid2d", "grid3d", "radiation", "scale2d", "scale3d"]
 ORDER += ["diffuse2d", "diffuse3d"]
@@ -26,11 +29,10 @@ def main():
     results = sorted((result for result in results if result["lptn"] == stamp), key=place)
     if not results:
         sys.exit(f"nothing was recorded with {sys.argv[1]}")
-    text = "\n\n".join(
-        ["", conditions(sys.argv[1], results), *chapters(results), every_figure(results), ""]
-    )
+    text = "\n\n".join(["", conditions(sys.argv[1], results), *chapters(results), ""])
     before, _, rest = PAGE.read_text().partition(BEGIN)
     PAGE.write_text(before + BEGIN + text + END + rest.partition(END)[2])
+    every_figure(results)
 
 
 def place(result):
@@ -112,11 +114,12 @@ def every_figure(results):
         "lptn / it",
     ]
     rows = [figures(result, row) for result in results for row in result["rows"]]
-    return "### Every figure\n\n" + markdown(heads, rows)
+    with FIGURES.open("w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([heads, *rows])
 
 
 def figures(result, row):
-    head = [f"`{result['case']}`", power(result["target"]), row["tool"]]
+    head = [result["case"], power(result["target"]), row["tool"]]
     if row["error"] is None:
         return [*head, row["said"], "", "", "", "", ""]
     ratio = "" if row["ratios"][0] is None else f"{row['ratios'][0]:.2f}"

@@ -32,6 +32,7 @@ mod kind_page;
 mod kinds;
 mod limits;
 mod losses;
+mod message_words;
 mod networks;
 mod networks_validation;
 #[path = "support/pages.rs"]

@@ -62,10 +62,12 @@ fn page() -> String {
         .to_owned();
     for section in &format().sections {
         let name = section.name;
-        text += &format!("\n## `[{name}]`\n\n{}\n", section.sentence);
+        text += &format!("\n## `[{name}]`\n{}", section.sentence);
         if is_path(section) {
-            text += &format!("Keys and laws: [{name}](elements/{name}.md).\n");
-        } else if !section.keys.is_empty() {
+            text += &format!("\n[Keys and laws](elements/{name}.md).");
+        }
+        text += "\n";
+        if !is_path(section) && !section.keys.is_empty() {
             text += "\n| Key | Takes | Meaning | Default | Example |\n|---|---|---|---|---|\n";
             for key in section.keys {
                 let default =

@@ -1,4 +1,4 @@
-//! The study of the paper's collapse (`examples/collapse.rs`, `docs/collapse.md`) against closed
+//! The study of the paper's collapse (`examples/collapse.rs`, `docs/paper.md`) against closed
 //! forms written here.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]

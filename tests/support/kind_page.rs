@@ -123,7 +123,7 @@ pub(crate) fn tables(kind: Kind) -> String {
     lines.extend(at_faces(kind));
     if kind.laws().any(|law| law.declaration().carries.is_of_fluid()) {
         let of = "a [fluid](material.md) of the file or of the library: `air`, `water`, \
-            `gear_oil_vg220`, ..";
+            `gear_oil_vg220`, …";
         lines.push(format!("| `fluid` | {of} | | | |"));
     }
     if let Some(selector) = kind.declaration().selector {

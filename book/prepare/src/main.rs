@@ -3,6 +3,8 @@
 //!
 //! - Equations, written as GitHub shows them (a block ` ```math `, or `` $`..`$ `` in a line),
 //!   become MathML, so that a browser needs no script for them.
+//! - A block that is a file, ` ```toml motor.toml `, or lines of one, ` ```toml from motor.toml `,
+//!   has its name above it.
 //! - A link that leads out of `docs` (`../networks/motor.toml`) becomes its text, for the book goes
 //!   without the project; one to a `README.md` leads to the `index.html` that mdBook makes of it.
 //!
@@ -55,10 +57,13 @@ fn page(text: &str, path: &Path) -> Outcome<String> {
                 out += &prose(&std::mem::take(&mut words), path)?;
                 block = Some((info.trim().to_owned(), String::new()));
             }
+            // a paragraph may go on without an empty line, and would take the equation in
             (Some(_), Some((info, body))) if info == "math" => {
-                out += &format!("{}\n", mathml(&body, DisplayMode::Block, path)?);
+                out += &format!("\n{}\n\n", mathml(&body, DisplayMode::Block, path)?);
             }
-            (Some(_), Some((info, body))) => out += &format!("```{info}\n{body}```\n"),
+            (Some(_), Some((info, body))) => {
+                out += &format!("{}```{info}\n{body}```\n", file_name(&info));
+            }
             (None, Some((info, body))) => block = Some((info, format!("{body}{line}\n"))),
             (None, None) => words += &format!("{line}\n"),
         }
@@ -67,6 +72,13 @@ fn page(text: &str, path: &Path) -> Outcome<String> {
         return Err(format!("{}: a block is not closed", path.display()).into());
     }
     Ok(out + &prose(&words, path)?)
+}
+
+/// The name of the file that a block is, or from which its lines are, as a line above it.
+fn file_name(info: &str) -> String {
+    let words: Vec<&str> = info.split(' ').skip(1).collect();
+    let name = words.iter().find(|word| word.contains('.'));
+    name.map_or_else(String::new, |name| format!("\n<div class=\"file\">{name}</div>\n\n"))
 }
 
 fn prose(text: &str, path: &Path) -> Outcome<String> {
@@ -143,7 +155,18 @@ mod tests {
         assert!(made.contains("<msup>") && made.contains("<mfrac>"), "{made}");
         assert!(made.contains("x = \"$`y`$\""), "{made}");
         assert!(page("$`\\nonsense`$", Path::new("a.md")).is_err());
+        let made = page("so\n```math\nx\n```\n| a |\n", Path::new("a.md")).unwrap();
+        assert!(made.starts_with("so\n\n<math") && made.ends_with("</math>\n\n| a |\n"), "{made}");
         assert!(page("```\nopen", Path::new("a.md")).is_err());
+    }
+
+    #[test]
+    fn blocks_that_are_files_show_their_names() {
+        let shown = |info: &str| page(&format!("```{info}\nx\n```\n"), Path::new("a.md")).unwrap();
+        let above = "\n<div class=\"file\">motor.toml</div>\n\n```toml";
+        assert!(shown("toml motor.toml").starts_with(above));
+        assert!(shown("toml from motor.toml").starts_with(above));
+        assert!(shown("console by-hand").starts_with("```") && shown("toml").starts_with("```"));
     }
 
     #[test]

@@ -276,7 +276,7 @@ impl Input {
 }
 
 /// The studies of one kind, and the messages if the wanted one cannot be found.
-pub struct Studies {
+pub struct Studies<'t> {
     /// The word of their sections, `size` of `[size.fan]`.
     pub section: &'static str,
     /// The codes if there is none, and if several can be meant.
@@ -284,10 +284,10 @@ pub struct Studies {
     /// The question of such a study, for the message.
     pub question: &'static str,
     /// A section to paste.
-    pub example: &'static str,
+    pub example: &'t str,
 }
 
-impl Studies {
+impl Studies<'_> {
     /// The study of this name, or the only one.
     pub fn find<'a, S>(
         &self,

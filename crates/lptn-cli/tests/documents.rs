@@ -3,8 +3,8 @@
 //!
 //! A block ` ```console ` holds commands, each after `$ `, and their output. The commands of a page
 //! run one after the other through `sh` in a temporary folder of its own that holds a copy of
-//! `networks/` and `docs/records/`, and the blocks of the page that have a file name:
-//! ` ```toml motor.toml `, ` ```csv points.csv `, ` ```python loop.py `.
+//! `networks/` and the netlists and records of `docs/`, and the blocks of the page that have a file
+//! name: ` ```toml motor.toml `, ` ```csv points.csv `, ` ```python loop.py `.
 //! ` ```python plot.py optional ` needs packages that may not be there and is only compiled.
 //!
 //! - A block that shows any output shows all of it, stdout and stderr as a terminal would; a line
@@ -18,7 +18,8 @@
 //! - A picture `pictures/NAME.svg` that a page shows is the `NAME.svg` that its commands wrote.
 //!
 //! A block with a folder in its name is a file of the repository, so that its commands run there too:
-//! ` ```toml docs/cups.toml `. `LPTN_PAGE=gearbox` runs the pages with this in their name only.
+//! ` ```toml docs/cups.toml `. A block ` ```toml from docs/cups.toml ` shows lines of such a file, in
+//! its order; `# …` stands for lines that are left out. `LPTN_PAGE=gearbox` runs the pages with this in their name only.
 //!
 //! `LPTN_BLESS=1 cargo test -p lptn-cli --test all documents::` writes what the commands print into the
 //! pages; what it writes has to be read as one who learns from it would. A block with `..` is not
@@ -159,12 +160,11 @@ impl Page {
         std::fs::create_dir(folder.path().join("bin")).unwrap();
         std::os::unix::fs::symlink(env!("CARGO_BIN_EXE_lptn"), folder.path().join("bin/lptn"))
             .unwrap();
-        for copied in ["networks", "docs/records"] {
-            let to = folder.path().join(copied);
-            std::fs::create_dir_all(to.parent().unwrap()).unwrap();
-            let status = Command::new("cp").arg("-r").arg(root().join(copied)).arg(to).status();
-            assert!(status.unwrap().success());
-        }
+        let files = "networks docs/records docs/netlists docs/*.toml docs/*.csv \
+                     docs/cookbook/*.toml docs/cookbook/*.csv";
+        let copied = format!("tar -cf - {files} | tar -xf - -C '{}'", folder.path().display());
+        let status = Command::new("sh").args(["-c", &copied]).current_dir(root()).status();
+        assert!(status.unwrap().success());
         Self { name, lines, folder, wrong: String::new(), blessed: Vec::new() }
     }
 
@@ -179,6 +179,7 @@ impl Page {
                 }
                 ("console", "by-hand") => self.by_hand(&block),
                 ("python", file) if file.ends_with(" optional") => self.compiles(&block),
+                (_, file) if file.starts_with("from ") => {}
                 ("toml" | "csv" | "python", file) if file.contains('.') => {
                     let text = self.lines[block.lines.clone()].join("\n") + "\n";
                     self.folder.write(file, &text);
@@ -337,7 +338,33 @@ fn blocks_with_a_folder_in_their_name_are_files_of_the_repository() {
         }
     }
     assert!(wrong.is_empty(), "LPTN_BLESS=1 writes the files:\n\n{wrong}");
-    assert!(seen >= 10, "only {seen} files were found");
+    assert!(seen >= 1, "no such file was found");
+}
+
+/// An excerpt is lines of its file, in the order of the file.
+#[test]
+fn excerpts_are_lines_of_their_files() {
+    let (mut seen, mut wrong) = (0, String::new());
+    for path in pages(&root()) {
+        let lines = pages::lines(&path);
+        for block in blocks(&lines) {
+            let Some(file) = block.words().1.strip_prefix("from ") else { continue };
+            seen += 1;
+            let text = std::fs::read_to_string(root().join(file)).unwrap_or_default();
+            let mut rest = text.lines();
+            for number in block.lines.clone() {
+                let line = &lines[number];
+                let left_out = line.is_empty() || line.starts_with("# …");
+                if !left_out && !rest.any(|other| other == line) {
+                    let place = format!("{}:{}", path.display(), number + 1);
+                    writeln!(wrong, "{place}: `{line}` is not in {file}, or earlier").unwrap();
+                    break;
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "\n{wrong}");
+    assert!(seen >= 10, "only {seen} excerpts were found");
 }
 
 /// A law of 85.25 uW stood below a fit that prints 85.11.

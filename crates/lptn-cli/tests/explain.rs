@@ -179,3 +179,13 @@ fn a_terminal_is_told_where_to_read_more() {
     assert!(on_terminal("new motor").contains("next   lptn check motor.toml"));
     assert!(on_terminal("check motor.toml").contains("stiffness: "));
 }
+
+#[test]
+fn words_of_a_verdict_are_explained() {
+    let folder = Folder::empty();
+    for word in ["kept", "broken", "BROKEN", "not judged", "not determined", "open"] {
+        let ran = folder.run(&["explain", word]).exits(0);
+        assert!(ran.out.lines().count() > 3, "{word}: {}", ran.out);
+    }
+    folder.run(&["explain", "brokn"]).exits(2);
+}

@@ -91,7 +91,7 @@ fn a_fit_of_a_network_shows_the_best_values_so_far() {
     let ran = interrupted(&long_fit(), &line).exits(130).says("interrupted in search ");
     let ran =
         ran.says("these values are not a result").says("lptn fit network gearbox.toml --set ");
-    assert!(ran.out.starts_with("parameter  best so far  unit"), "{}", ran.out);
+    assert!(ran.out.starts_with("parameter  best until then  unit"), "{}", ran.out);
     assert!(ran.out.contains("bed_share") && ran.out.contains("T_amb"), "{}", ran.out);
     let json = interrupted(&long_fit(), &[&line[..], &["--format", "json"]].concat()).exits(130);
     let members = json.json();

@@ -95,8 +95,8 @@ impl Files {
         let folder = std::env::temp_dir().join(format!("lptn-processors-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         std::fs::write(folder.join("STREAMS"), STREAMS).unwrap();
-        let sweep = block("docs/cookbook/candidates.md", "motor.toml");
-        std::fs::write(folder.join("SWEEP"), sweep).unwrap();
+        let sweep = root().join("docs/netlists/motor_sweep.toml");
+        std::fs::copy(sweep, folder.join("SWEEP")).unwrap();
         let points = block("docs/fit-law.md", "points.csv");
         std::fs::write(folder.join("POINTS"), points).unwrap();
         Self(folder)

@@ -132,6 +132,12 @@ fn wrong_questions_end_with_2() {
     folder.run(&["size", "missing.toml"]).exits(2).says("cannot read");
     let none = FAN.split("[size").next().unwrap();
     Folder::with("fan.toml", none).run(&["size", "fan.toml"]).exits(2).says("has no [size.NAME]");
+    // the help names a parameter and a node of the file, and can be pasted
+    let ran = Folder::with("fan.toml", none).run(&["size", "fan.toml"]).exits(2);
+    let pasted: Vec<&str> = ran.err.lines().skip_while(|l| !l.contains("[size.best]")).collect();
+    let pasted = pasted.iter().map(|line| line.trim()).collect::<Vec<_>>().join("\n");
+    let whole = format!("{none}\n{pasted}\n");
+    Folder::with("fan.toml", &whole).run(&["check", "fan.toml"]).exits(0);
     let second =
         FAN.to_owned() + &FAN[FAN.find("[size").unwrap()..].replace("size.fan", "size.other");
     let folder = Folder::with("fan.toml", &second);

@@ -354,7 +354,7 @@ impl IntegrateError {
                 write!(f, "{callback} is not finite at time {}, component {index}", Short(*time))
             }
             Self::Refused { callback, time } => {
-                write!(f, "{callback} asks for ever smaller steps at time {}", Short(*time))
+                write!(f, "{callback} asks for smaller and smaller steps at time {}", Short(*time))
             }
             Self::Stopped { callback, time } => {
                 write!(f, "{callback} stopped the integration at time {}", Short(*time))

@@ -86,7 +86,7 @@ pub fn effectiveness_crossflow<S: Scalar>(ntu: S, ratio: S) -> S {
 /// More than are needed for 1000 transfer units.
 const MOST_TERMS: u32 = 2000;
 
-/// Effectiveness of a shell with one pass and tubes with two, four, .. passes.
+/// Effectiveness of a shell with one pass and tubes with two, four, … passes.
 ///
 /// e = 2 / (1 + C_r + s (1 + exp(-N s)) / (1 - exp(-N s))), s = sqrt(1 + C_r^2)
 ///

@@ -17,13 +17,15 @@ use crate::joint::{
 #[allow(non_upper_case_globals, reason = "named as in the list")]
 pub(crate) const PressFit: KindDeclaration = KindDeclaration {
     section: "press_fit",
-    sentence: "A hub on a shaft, held by interference.",
+    sentence: "A hub on a shaft, joined by interference.",
     selector: None,
     example: "{ from = \"hub\", to = \"shaft\", diameter = \"100 mm\", hub_diameter = \"130 mm\", \
         length = \"30 mm\", interference = \"78 um\", T_fit = \"25 degC\", alpha = [\"23.6e-6 1/K\", \
         \"12e-6 1/K\"], E = [\"70 GPa\", \"210 GPa\"], poisson = [0.33, 0.3], k = [\"167 W/(m K)\", \
         \"45 W/(m K)\"], slope = 0.15, roughness = \"1 um\", hardness = \"1.1 GPa\" }",
     elsewhere: &[
+        ("R", "a path given by `R` belongs in [resistor]"),
+        ("G", "a path given by `G` belongs in [resistor]"),
         ("d", "the diameter of the joint is `diameter`"),
         ("D", "the outer diameter of the hub is `hub_diameter`"),
         ("pressure", "the pressure follows from `interference` and the temperatures"),

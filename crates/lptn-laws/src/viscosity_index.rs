@@ -52,7 +52,7 @@ fn reference(nu_100: f64, table: &[f64; ROWS], [a, b, c]: [f64; 3]) -> f64 {
         return (a * nu_100 + b) * nu_100 + c;
     }
     let last = (ROWS - 2) as f64;
-    // rows at 2, 2.1, .. 20, 20.2, .. 30, 30.5, .. 70 mm^2/s
+    // rows at 2, 2.1, … 20, 20.2, … 30, 30.5, … 70 mm^2/s
     let row = match nu_100 {
         y if y < 20.0 => (y - 2.0) / 0.1,
         y if y < 30.0 => 180.0 + (y - 20.0) / 0.2,

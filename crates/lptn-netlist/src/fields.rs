@@ -58,7 +58,7 @@ impl Owner {
 
     /// The type of one of its keys, as it is declared.
     pub(crate) fn ty(&self, key: &str) -> Type {
-        debug_assert!(self.section.key(key).is_some(), "{key} is no key of {}", self.words);
+        debug_assert!(self.section.key(key).is_some(), "{key} is not a key of {}", self.words);
         self.section.key(key).map_or(Type::SCALAR, KeyDeclaration::ty)
     }
 
@@ -274,7 +274,7 @@ pub(crate) fn unknown(section: &SectionDeclaration, owner: &Owner, field: &RawEn
             "netlist::not_supported_yet",
             message,
             &field.key_span,
-            format!("the keys here are {} so far", list(&section.names())),
+            format!("the keys here are {}", list(&section.names())),
         );
     }
     Diagnostic::error("netlist::unknown_key", format!("{} has no field `{key}`", owner.words()))

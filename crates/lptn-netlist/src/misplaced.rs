@@ -33,9 +33,9 @@ pub(crate) fn not_here(place: Place<'_>, name: &str, wanted: Wanted, at: Span) -
             "the density of a solid is constant: give it at the temperature at which its volume is \
              measured"
         }
-        Context::Capacity => "it may depend on `T`, the temperature of its own node, or on states",
+        Context::Capacity => "it may depend on `T`, the temperature of its node, or on states",
         Context::Own => {
-            "it may depend on `T`, the temperature of its own body or fluid, and on no other"
+            "it may depend on `T`, the temperature of its body or fluid, and on no other"
         }
         Context::Result => "name the node or boundary, for example `steel.T`",
         _ => {

@@ -21,7 +21,7 @@ macro_rules! ids {
 
             #[inline]
             pub(crate) fn from_len(len: usize) -> Self {
-                Self(u32::try_from(len).expect("a network holds fewer than 2^32 items of a kind"))
+                Self(u32::try_from(len).expect("a network contains fewer than 2^32 items of a kind"))
             }
         }
     )*};

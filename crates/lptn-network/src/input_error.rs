@@ -49,7 +49,7 @@ pub enum InputProblem {
             run there";
     /// A signal with so short a period that a run would have to stop at this many points.
     TooManyPoints(count: f64) = INPUT,
-        format!("repeats the signal so often that the run would stop at {count:.0} points"),
+        format!("repeats the signal at {count:.0} points, at each of which the run would stop"),
         help "give the signal a longer period, or use its mean instead";
     /// An emissivity or view factor outside 0 to 1.
     NotAFraction(value: f64) = INPUT, format!("is not between 0 and 1: {value}"),

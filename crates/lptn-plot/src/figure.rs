@@ -51,7 +51,7 @@ pub enum Scale {
     Log,
     /// Linear, of times in s.
     Time,
-    /// Named things at 0, 1, 2 .., at equal distances.
+    /// Named things at 0, 1, 2 …, at equal distances.
     Names(Vec<String>),
 }
 

@@ -104,7 +104,7 @@ const SERIES_COLOURS: [[Rgb; 2]; SERIES] = [
 
 /// The scale cividis of Nunez, Anderton and Renslow (PLoS ONE 13(7), 2018), made for readers with
 /// and without colour vision deficiency: lightness grows evenly from blue to yellow. Colours are
-/// interpolated linearly between those at 0, 1/8, .. 1.
+/// interpolated linearly between those at 0, 1/8, … 1.
 fn field(place: usize) -> Rgb {
     const KNOTS: [Rgb; 9] = [
         [0, 34, 78],

@@ -3,7 +3,7 @@
 //! Dots are thinned in the same way as lines: the first, lowest, highest and last of each stretch
 //! stay, so that an outlier is always drawn.
 
-/// The points of a curve that are visible at a width of `pixels`. Of the points on one pixel, the
+/// The points of a curve that are visible at a width of `pixels`. From the points on one pixel, the
 /// first, lowest, highest and last stay, so that no peak is lost. Points are in the order of their
 /// first coordinate; one that is not finite ends a piece and stays.
 pub fn thinned(points: &[(f64, f64)], pixels: usize) -> Vec<(f64, f64)> {

@@ -13,7 +13,7 @@ PAGE = ROOT / "docs" / "python.md"
 
 # A block of Python, perhaps with the block of what it prints.
 EXAMPLE = re.compile(
-    r"```python (?P<file>\S+) optional\n(?P<code>.*?)```\n(?:\n```text\n(?P<text>.*?)```\n)?",
+    r"```python (?P<file>\S+) optional\n(?P<code>.*?)```\n(?:\n?```text\n(?P<text>.*?)```\n)?",
     re.DOTALL,
 )
 

@@ -240,7 +240,7 @@ impl Solution {
         self.values(Quantity::Signal(id))
     }
 
-    /// A report over the rows in SI units; NaN unless every node was recorded. Of a number over
+    /// A report over the rows in SI units; NaN unless every node was recorded. For a number over
     /// time it is the quantity; [`Solution::reports_over_time`] has the number.
     pub fn report(&self, id: ReportId) -> Vec<f64> {
         self.values(Quantity::Report(id))

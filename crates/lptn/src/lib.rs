@@ -30,7 +30,7 @@
 //! rates, event indicators and derivatives.
 //!
 //! This crate exports everything a client needs. The crates below it (`lptn-network`, `lptn-solve`,
-//! ..) export the rest; ARCHITECTURE.md lists them. All numbers are in SI units, temperatures in K,
+//! …) export the rest; ARCHITECTURE.md lists them. All numbers are in SI units, temperatures in K,
 //! heat positive into a node and from `from` to `to`.
 
 mod error;

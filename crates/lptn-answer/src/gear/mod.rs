@@ -25,7 +25,7 @@ const MOST_POINTS: usize = 1000;
 /// Default speeds at which gears are evaluated, as shares of their own speed.
 const FIFTHS: [f64; 5] = [0.2, 0.4, 0.6, 0.8, 1.0];
 
-const GEARBOXES: Studies = Studies {
+const GEARBOXES: Studies<'_> = Studies {
     section: "gearbox",
     codes: ["gear::no_gearbox", "gear::which_gearbox"],
     question: "gears are described in a gearbox",
@@ -38,7 +38,7 @@ const GEARBOXES: Studies = Studies {
 pub struct GearQuestion {
     /// The gearbox, with those that it drives; `None` for the only one.
     pub gearbox: Option<String>,
-    /// Speeds of the input, `3000rpm`; none for fifths of its own.
+    /// Speeds of the input, `3000rpm`; none for fifths of its speed.
     pub speeds: Vec<String>,
     /// Torques on the input, `10 N m`; none for its own.
     pub torques: Vec<String>,

@@ -122,7 +122,7 @@ fn task(input: &Input, study: &InferStudy) -> Result<InferTask, Failure> {
     InferTask::of(&input.netlist, study).map_err(|error| failed(input, study, &error))
 }
 
-const STUDIES: Studies = Studies {
+const STUDIES: Studies<'_> = Studies {
     section: "infer",
     codes: ["infer::no_study", "infer::which_study"],
     question: "an inference needs a record and the signals to estimate",

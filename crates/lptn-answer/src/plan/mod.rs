@@ -54,7 +54,7 @@ impl Answer for PlanAnswer {
     }
 }
 
-const STUDIES: Studies = Studies {
+const STUDIES: Studies<'_> = Studies {
     section: "plan",
     codes: ["plan::no_study", "plan::which_study"],
     question: "a plan needs parameters to determine, and places for sensors",

@@ -22,7 +22,7 @@ use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::input::{self, Input, Studies};
 
-const STUDIES: Studies = Studies {
+const STUDIES: Studies<'_> = Studies {
     section: "sweep",
     codes: ["sweep::no_study", "sweep::which_study"],
     question: "a sweep needs parameters and reports",

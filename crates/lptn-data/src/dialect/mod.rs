@@ -78,7 +78,7 @@ impl Dialect {
             1 => Some("one line above the header left out".to_owned()),
             titles => Some(format!("{titles} lines above the header left out")),
         };
-        let units = self.units.as_ref().map(|_| "units in a line of their own".to_owned());
+        let units = self.units.as_ref().map(|_| "units in a separate line".to_owned());
         let maker = self.maker.map(|maker| maker.told().to_owned());
         [maker, separator, decimal, encoding, titles, units].into_iter().flatten().collect()
     }

@@ -40,7 +40,7 @@ pub(crate) fn told_apart(
     (at_end, accuracy): (&Evaluated, f64),
     model: &mut Model<'_>,
 ) -> Option<Identifiability> {
-    // in units of its own value a parameter counts as its logarithm, unless it drifted to nearly
+    // in units of its value a parameter counts as its logarithm, unless it drifted to nearly
     // nothing
     let scale = |(unknown, value): (&Unknown, &f64)| match (size(unknown), value.abs()) {
         // an almost unknown offset is not larger than the readings

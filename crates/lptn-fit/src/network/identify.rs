@@ -10,7 +10,7 @@ use crate::network::undetermined::{Place, Unseparated, groups};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Identifiability {
     /// Singular values of the derivatives of the residuals by the scaled parameters, largest first.
-    /// A parameter is in units of its own value (so that it is about its logarithm), a temperature
+    /// A parameter is in units of its value (so that it is about its logarithm), a temperature
     /// in units of 10 K.
     pub singular_values: Vec<f64>,
     /// Number of determined directions.

@@ -166,7 +166,7 @@ impl<'a> Model<'a> {
         let run = |&i: &usize| self.run(i, values).map_err(|error| (i, error));
         let runs: Vec<Measure> =
             in_parallel(&all, self.task.threads, run).into_iter().collect::<Result<_, _>>()?;
-        // one record's refusal makes differences of its own runs only: report it for all
+        // one record's refusal causes differences of its runs only: report it for all
         let differences = |measure: &&Measure| measure.gradient != Gradient::Exact;
         let gradient = runs.iter().find(differences).or(runs.first());
         self.gradient = gradient.map(|measure| measure.gradient);

@@ -30,7 +30,7 @@ pub(crate) const GEARBOX: SectionDeclaration = SectionDeclaration {
             "\"uneven\"",
         )
         .or("`\"even\"`"),
-        words("held", &["ring", "sun", "carrier"], "the member that stands still", "\"ring\"")
+        words("held", &["ring", "sun", "carrier"], "the member that does not turn", "\"ring\"")
             .or("`\"ring\"`"),
         text("input", "name of a member", "the member that `speed` and `torque` are of", "\"sun\"")
             .or("the first of sun, carrier and ring that turns; the pinion"),
@@ -135,7 +135,7 @@ pub(crate) const GEARBOX: SectionDeclaration = SectionDeclaration {
         ("mesh", "meshes follow from `teeth` and `torque`; their sizes are keys of the gearbox"),
         ("output", "the output follows from `input` and `held`"),
         ("z", "numbers of teeth are in `teeth`: `teeth = { sun = 18, planet = 42, ring = 102 }`"),
-        ("fixed", "the member that stands still is `held`"),
+        ("fixed", "the member that does not turn is `held`"),
         ("P", "a heat that is known belongs in [source]"),
     ],
     ..SectionDeclaration::NEW

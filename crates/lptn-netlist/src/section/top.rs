@@ -109,7 +109,7 @@ fn unknown(entry: &RawEntry, format: &NetlistFormat) -> Diagnostic {
             format!("`[{name}]` is not supported yet"),
         )
         .at(place, "")
-        .help(format!("the sections so far are {}", list(&format.names())));
+        .help(format!("the sections are {}", list(&format.names())));
     }
     let (code, message) = if is_table {
         ("netlist::unknown_section", format!("there is no section `[{name}]`"))

@@ -209,7 +209,7 @@ impl NetworkBuilder {
         Some(typed(grid.area(at.face), Dimension::AREA))
     }
 
-    /// The nodes of a grid with the share of each in its volume, for a source into the whole. Of a
+    /// The nodes of a grid with the share of each in its volume, for a source into the whole. In a
     /// cylinder, the surfaces of its mantle and its hole take part if they are connected: a steady
     /// temperature with a uniform heat is then exact. Connect them first.
     pub fn shares_of_volume(&self, grid: GridId) -> Vec<(NodeId, f64)> {

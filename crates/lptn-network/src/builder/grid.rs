@@ -134,8 +134,8 @@ impl NetworkBuilder {
             .initial
             .map(|t| self.typed((name, item, Field::Initial), t, Type::ABSOLUTE_TEMPERATURE));
         let substance = self.substance((name, item), body.substance);
-        let first =
-            u32::try_from(self.parts.nodes.len()).expect("a network holds fewer than 2^32 nodes");
+        let first = u32::try_from(self.parts.nodes.len())
+            .expect("a network contains fewer than 2^32 nodes");
         let (name, paths, surfaces) = (name.to_owned(), [None; 3], [None; 6]);
         let grid = Grid {
             name,
@@ -335,8 +335,8 @@ impl NetworkBuilder {
             return known.surfaces(face).collect();
         }
         let (whole, known) = (Item::Grid(grid), known.clone());
-        let first =
-            u32::try_from(self.parts.nodes.len()).expect("a network holds fewer than 2^32 nodes");
+        let first = u32::try_from(self.parts.nodes.len())
+            .expect("a network contains fewer than 2^32 nodes");
         let first_path = self.next_conductor();
         let mut last: Option<(usize, Law)> = None;
         let mut nodes = Vec::with_capacity(known.face_count(face));
@@ -353,8 +353,8 @@ impl NetworkBuilder {
             last = Some((ring, law));
             nodes.push(surface);
         }
-        let end =
-            u32::try_from(self.parts.nodes.len()).expect("a network holds fewer than 2^32 nodes");
+        let end = u32::try_from(self.parts.nodes.len())
+            .expect("a network contains fewer than 2^32 nodes");
         self.parts.grids[grid.index()].surfaces[face as usize] = Some(first);
         // the one surface of a rod's end has the name of the face and is not an inner node
         if known.face_axes(face).next().is_some() {

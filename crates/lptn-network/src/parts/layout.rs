@@ -90,7 +90,8 @@ impl Default for Layout {
 
 impl Layout {
     fn push(&mut self, holds: Holds) -> u32 {
-        let slot = u32::try_from(self.holds.len()).expect("a network holds fewer than 2^32 names");
+        let slot =
+            u32::try_from(self.holds.len()).expect("a network contains fewer than 2^32 names");
         self.holds.push(holds);
         slot
     }

@@ -4,7 +4,7 @@
 //! A state is a node without paths. Its rate, divided by its scale, is the heat of a source into a
 //! capacity of 1 J/K, so 1 K of the node is one scale of the state. Integrators, steady states,
 //! events and sensitivities then need nothing of their own, and one tolerance in K serves all. Its
-//! node and source are no part of the energy balance.
+//! node and source are not a part of the energy balance.
 //!
 //! A state with a balance instead of a rate, such as the pressure of a junction, is a massless node
 //! without paths: Newton's method finds the value at which its balance is zero.

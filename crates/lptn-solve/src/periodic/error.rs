@@ -30,7 +30,7 @@ pub enum PeriodicError {
     /// The content of a pipe is not among the variables that a periodic state is found by.
     Pipe { name: String } = "periodic::pipe",
         format!("the periodic steady state of a network with the pipe `{name}` is not available"),
-        help "use `lptn run` over so many cycles that two of them are alike";
+        help "use `lptn run` until two cycles are alike";
     /// The cycles do not reach the same state; the smallest difference in K between the start of a
     /// cycle and its end.
     NotFound { cycles: usize, residual: f64 } = "periodic::not_found",

@@ -13,15 +13,15 @@ use crate::solution::Solution;
 /// The search begins with this tolerance in K.
 const COARSEST: f64 = 1e-3;
 
-/// It goes on with this part of it ..
+/// It goes on with this part of it …
 const FINER: f64 = 1e-2;
 
-/// .. unless the requested tolerance is within this of the next one. A network that hardly forgets
+/// … unless the requested tolerance is within this of the next one. A network that hardly forgets
 /// anything in a cycle adds up the integrator's errors over very many: then the search goes on
-/// beyond that tolerance, ..
+/// beyond that tolerance, …
 const NEAR: f64 = 20.0;
 
-/// .. but not below this in K: near 300 K the last digit is 6e-14 K.
+/// … but not below this in K: near 300 K the last digit is 6e-14 K.
 const FINEST: f64 = 1e-11;
 
 /// Cycles of one search.
@@ -34,19 +34,19 @@ const ERROR: f64 = 10.0;
 const PATIENCE: usize = 2;
 
 /// No next cycle begins further from the end of the last one than this times the sum of later
-/// cycles, ..
+/// cycles, …
 const REACH: f64 = 2.0;
 
-/// .. less by this factor after each step that led nowhere, ..
+/// … less by this factor after each step that led nowhere, …
 const SHORTER: f64 = 0.25;
 
-/// .. until so little is left that the last cycle is accepted as it is.
+/// … until so little is left that the last cycle is accepted as it is.
 const LEAST_REACH: f64 = 0.02;
 
-/// A cycle whose residual is this many times that of the best one has led nowhere, ..
+/// A cycle whose residual is this many times that of the best one has led nowhere, …
 const ASTRAY: f64 = 3.0;
 
-/// .. and so has every one after this number without progress.
+/// … and so has every one after this number without progress.
 const MOST_IDLE: usize = 8;
 
 /// Cycles that begin at the end of the last one, after one with a larger residual: fast parts
@@ -54,10 +54,10 @@ const MOST_IDLE: usize = 8;
 const RELAXED: usize = 2;
 
 /// The assumed largest part of a disturbance that a cycle leaves over, as long as it is not known,
-/// ..
+/// …
 const UNKNOWN: f64 = 0.9;
 
-/// .. and if cycles seem to forget nothing.
+/// … and if cycles seem to forget nothing.
 const SLOWEST: f64 = 1.0 - 1e-7;
 
 /// The last digits of a temperature of some 300 K, in K.

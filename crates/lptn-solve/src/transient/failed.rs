@@ -8,10 +8,10 @@ use crate::runaway::Runaway;
 use crate::stop_reason::StopReason;
 use crate::unsolved::Unsolved;
 
-/// Steps shorter than this part of the run, each after refused ones, make no progress ..
+/// Steps shorter than this part of the run, each after refused ones, make no progress …
 const CRAWL: f64 = 1e-9;
 
-/// .. if there are this many. The first step of a segment may be one of them by chance.
+/// … if there are this many. The first step of a segment may be one of them by chance.
 const PATIENCE: usize = 8;
 
 /// The same before the end of a branch.

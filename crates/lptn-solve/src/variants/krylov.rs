@@ -34,7 +34,7 @@ const WHOLE: f64 = 1e-14;
 /// The first step at which the error is evaluated, over the time constant of the fastest part.
 const EARLY: f64 = 0.1;
 
-/// The residual of the equation is evaluated after 1, 2, 4, .. steps: this factor allows for the
+/// The residual of the equation is evaluated after 1, 2, 4, … steps: this factor allows for the
 /// values in between.
 const SAMPLED: f64 = 2.0;
 

@@ -31,9 +31,9 @@ const ORDERS: usize = 10;
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Taylor {
     terms: [Interval; ORDERS],
-    /// All terms after this one are zero ..
+    /// All terms after this one are zero …
     degree: usize,
-    /// .. up to this one; those after it are not known.
+    /// … up to this one; those after it are not known.
     orders: usize,
 }
 

@@ -82,7 +82,7 @@ pub(super) fn chance(probability: f64) -> String {
     }
 }
 
-/// The power of 1000 that brings a value to 1 .. 1000, and its SI prefix.
+/// The power of 1000 that brings a value to 1 … 1000, and its SI prefix.
 fn prefix(value: f64) -> (f64, &'static str) {
     const PREFIXES: [(f64, &str); 8] = [
         (1e6, "M"),

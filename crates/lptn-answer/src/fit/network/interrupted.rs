@@ -45,7 +45,9 @@ impl InterruptedFit {
         let values = self.best.as_ref()?;
         let mut text = Text::new();
         let table = TextTable::of(values).left("parameter", |cells| &cells[0]).names();
-        text.table(table.right("best so far", |cells| &cells[1]).left("unit", |cells| &cells[2]));
+        text.table(
+            table.right("best until then", |cells| &cells[1]).left("unit", |cells| &cells[2]),
+        );
         Some(text)
     }
 

@@ -93,7 +93,7 @@ impl Answer for FitNetworkAnswer {
     }
 }
 
-pub(super) const STUDIES: Studies = Studies {
+pub(super) const STUDIES: Studies<'_> = Studies {
     section: "fit",
     codes: ["fit::no_study", "fit::which_study"],
     question: "a fit needs records and parameters",

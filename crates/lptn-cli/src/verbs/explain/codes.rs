@@ -12,6 +12,9 @@ const PAGES: [&str; 7] = [
     include_str!("../../../../../docs/codes/command.md"),
 ];
 
+/// Words of a verdict, in the same form.
+const WORDS: &str = include_str!("../../../../../docs/codes/words.md");
+
 /// A code and the text below its heading.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Code {
@@ -94,6 +97,11 @@ pub(crate) fn all() -> Vec<Code> {
     let mut codes: Vec<Code> = PAGES.iter().flat_map(|page| of_page(page)).collect();
     codes.sort_by_key(|code| code.code);
     codes
+}
+
+/// Words of a verdict, each as a code: `broken`.
+pub(crate) fn words() -> impl Iterator<Item = Code> {
+    of_page(WORDS).into_iter()
 }
 
 fn of_page(page: &'static str) -> Vec<Code> {

@@ -16,7 +16,11 @@ use lptn_answer::failure::Failure;
 
 pub(crate) fn explain(args: &ExplainArgs, console: &Console) -> Result<Exit, Failure> {
     let codes = codes::all();
+    let said = |text: &String| codes::words().find(|code| code.code.eq_ignore_ascii_case(text));
     let explained = match &args.code {
+        Some(text) if said(text).is_some() => {
+            Explained { codes: said(text).into_iter().collect(), named: true }
+        }
         None => Explained { codes, named: false },
         Some(text) => asked(bare(text), codes)?,
     };

@@ -19,10 +19,10 @@ pub(crate) struct GearArgs {
     /// The gearbox, with those that it drives; default: the only one
     #[arg(value_name = "NAME")]
     pub(crate) gearbox: Option<String>,
-    /// Use these speeds of the input; default: fifths of its own
+    /// Use these speeds of the input; default: fifths of the given one
     #[arg(long, value_name = "LIST", value_delimiter = ',', allow_hyphen_values = true)]
     pub(crate) speed: Vec<String>,
-    /// Use these torques on the input; default: its own
+    /// Use these torques on the input; default: the given one
     #[arg(long, value_name = "LIST", value_delimiter = ',', allow_hyphen_values = true)]
     pub(crate) torque: Vec<String>,
     /// Fix all nodes at these temperatures; default: their steady state
