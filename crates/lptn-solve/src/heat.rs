@@ -53,7 +53,7 @@ pub(crate) struct Heat<'a> {
     /// The sensitivities that are followed.
     pub(crate) tangent: Option<Tangent<'a>>,
     /// The sampled states, which keep their values; empty on the way to a steady state.
-    samples: Vec<Sampled>,
+    pub(crate) samples: Vec<Sampled>,
 }
 
 impl<'a> Heat<'a> {
@@ -131,16 +131,6 @@ impl<'a> Heat<'a> {
     /// Takes the temperatures of pipes from their content.
     pub(crate) fn read_pipes(&mut self, pipes: &Shared) -> Result<(), NewtonError> {
         self.unfold.read_pipes(pipes)
-    }
-
-    /// Keeps the values of sampled states between samples.
-    pub(crate) fn keep_samples(&mut self) {
-        self.samples = Sampled::all_of(self.system);
-    }
-
-    /// The sampled states.
-    pub(crate) fn samples(&self) -> &[Sampled] {
-        &self.samples
     }
 
     /// True if there are pipes whose content is read.

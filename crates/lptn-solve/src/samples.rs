@@ -1,5 +1,5 @@
-//! Sampled states in a run: their values stay between samples, and all of them take their next values
-//! at once, from those before.
+//! Sampled states in a run: their values stay between samples, and all of them take their next
+//! values at once, from those before.
 //!
 //! Samples are at the multiples of the time between them, whenever a run begins: a run that goes on
 //! from a saved state samples when the uninterrupted one does. A sample at the end of a run is left
@@ -10,7 +10,7 @@ use lptn_integrate::Pattern;
 use lptn_network::{InputError, SourceId, StateId};
 
 /// A time is a multiple of another if it is off by less than this share of it.
-const SAME: f64 = 1e-6;
+const SAME: f64 = 1e-9;
 
 /// A sampled state in a run.
 #[derive(Clone, Debug)]

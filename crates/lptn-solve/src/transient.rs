@@ -215,9 +215,7 @@ impl<'a> Run<'a> {
         if !from.stood().is_empty() {
             heat.stand_at(from.stood());
         }
-        if effort.care != Care::Way {
-            heat.keep_samples();
-        }
+        heat.samples = sampled::of(system, effort.care);
         let reads = (from, settings.tolerance, effort.care);
         let pipes = piped::attach(system, (&mut heat, &mut recorder), reads).map_err(unsolved)?;
         let mut carried = Vec::new();

@@ -1,15 +1,22 @@
 //! Samples at the start of a segment.
 
-use super::{Break, Run};
+use lptn_assembly::ThermalSystem;
+
+use super::{Break, Care, Run};
 use crate::heat::Heat;
 use crate::samples::Sampled;
 use crate::stop_reason::StopReason;
 use crate::times::Segment;
 
+/// The states that keep their values between samples: none on the way to a steady state.
+pub(super) fn of(system: &ThermalSystem, care: Care) -> Vec<Sampled> {
+    if care == Care::Way { Vec::new() } else { Sampled::all_of(system) }
+}
+
 /// The state after the samples at a time in s at which it is `y`; `None` if there are none.
 fn sampled(heat: &mut Heat<'_>, time: f64, y: &[f64]) -> Result<Option<Vec<f64>>, StopReason> {
     let due: Vec<Sampled> =
-        heat.samples().iter().filter(|sampled| sampled.is_due(time)).cloned().collect();
+        heat.samples.iter().filter(|sampled| sampled.is_due(time)).cloned().collect();
     if due.is_empty() {
         return Ok(None);
     }
