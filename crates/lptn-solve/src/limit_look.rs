@@ -49,7 +49,8 @@ impl LimitLook {
         let whole = step.clone();
         let parts = resolve(step, levels, self.halvings.0, (at, &mut judge))?;
         self.halvings.after(parts.iter().all(|part| part.told));
-        let most = parts.iter().any(|part| part.open).then(|| hidden.width(&whole)).unwrap_or(0.0);
+        let open = parts.iter().any(|part| part.open);
+        let most = if open { hidden.width(&whole) } else { 0.0 };
         for Resolved { interval, open, .. } in &parts {
             let hides = *open && hidden.wanting(interval) > 0.0;
             for (limit, seen) in self.seen.iter_mut().enumerate() {
