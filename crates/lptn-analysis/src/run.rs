@@ -191,7 +191,10 @@ impl RunAnalysis {
             observer(progress)
         });
         match found {
-            Ok(result) => Ok(Trusted { trust: Trust::of_run(&result.solution), result }),
+            Ok(result) => {
+                let trust = Trust { grows: result.grows(), ..Trust::of_run(&result.solution) };
+                Ok(Trusted { trust, result })
+            }
             Err(PeriodicError::Interrupted { .. }) => {
                 Err(RunError::Interrupted { time: reached, part: None }.into())
             }

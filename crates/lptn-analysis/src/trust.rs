@@ -18,6 +18,9 @@ pub struct Trust {
     pub unresolved: Vec<Unresolved>,
     /// Knowledge of other steady states with the same inputs; [`Others::None`] over time.
     pub others: Others,
+    /// The factor by which a cycle multiplies a disturbance of a periodic steady state, if it is
+    /// above 1: the state is unstable.
+    pub grows: Option<f64>,
 }
 
 /// A result that changes faster than steps are evaluated.
@@ -74,6 +77,7 @@ impl Trust {
             unbounded: solution.why_unbounded(),
             unresolved: Unresolved::all_of(solution),
             others: Others::None,
+            grows: None,
         }
     }
 
@@ -84,6 +88,7 @@ impl Trust {
             unbounded: None,
             unresolved: Vec::new(),
             others: steady.others.clone(),
+            grows: None,
         })
     }
 }

@@ -129,7 +129,7 @@ fn a_state_is_read_by_its_name() {
     let (start, empty) =
         (Expression::literal(full.value, full.ty), Expression::literal(0.0, full.ty));
     let (rate, bounds) = (Expression::parse("-I").unwrap(), [Some(&empty), None]);
-    b.state_law(id, StateLaw { start: &start, rate: &rate, bounds }).unwrap();
+    b.state_law(id, StateLaw { start: &start, rate: &rate, every: None, bounds }).unwrap();
     let cell = b.node("cell", HeatCapacity(C), Temperature::celsius(20.0));
     let air = b.boundary("air", Temperature::celsius(20.0));
     b.resistor("skin", cell, air, Conductance(0.1));

@@ -103,7 +103,7 @@ pub fn place(input: &Input, error: &LinearisedError) -> Option<Span> {
         LinearisedError::Melts { name }
         | LinearisedError::Pipe { name }
         | LinearisedError::Mass { name } => input.node_place(name),
-        LinearisedError::Singular => None,
+        LinearisedError::Sampled { .. } | LinearisedError::Singular => None,
     }
 }
 

@@ -14,7 +14,21 @@ pub fn doubts(netlist: &Netlist, trust: &Trust, run: bool) -> Vec<Diagnostic> {
     let beyond = trust.beyond.iter().map(|beyond| implausible(netlist, beyond, run));
     let outside = ranges::warnings(netlist, &trust.out_of_range, run);
     let unresolved = trust.unresolved.iter().map(|open| unresolved(netlist, open));
-    beyond.chain(outside).chain(unresolved).collect()
+    let grows = trust.grows.map(unstable);
+    beyond.chain(outside).chain(unresolved).chain(grows).collect()
+}
+
+/// The warning about a periodic state from which runs depart.
+fn unstable(factor: f64) -> Diagnostic {
+    let message = format!(
+        "the periodic steady state is unstable: each cycle multiplies a disturbance by about {}, so \
+         a run departs from it",
+        significant(factor, 3)
+    );
+    Diagnostic::warning("periodic::unstable", message).help(
+        "check for a heat that grows faster with a temperature or a state than the cooling does; \
+         `lptn run` over many cycles shows the state that it reaches",
+    )
 }
 
 fn unresolved(netlist: &Netlist, open: &Unresolved) -> Diagnostic {

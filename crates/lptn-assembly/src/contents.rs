@@ -1,12 +1,28 @@
 //! Heat contents of nodes whose mass changes, for the energy balance.
 
-use lptn_network::{InputError, NodeId};
+use lptn_network::{InputError, InputProblem, NodeId};
 
 use crate::scaled::Scaled;
 use crate::system::ThermalSystem;
 use crate::workspace::Workspace;
 
 impl ThermalSystem {
+    /// Capacities in J/K, at the temperatures `y` of the states in K, of each of
+    /// [`Network::state_capacities`](lptn_network::Network::state_capacities); NaN for one without a
+    /// value.
+    pub fn capacities_of_states(&self, work: &mut Workspace, y: &[f64]) -> Vec<f64> {
+        self.put(work, y);
+        let one = |scaled: &Scaled| {
+            let Workspace { scope, temperature, .. } = &mut *work;
+            match self.network().capacity_at(&scaled.of, scope, temperature) {
+                Ok(capacity) => capacity,
+                Err(InputError { problem: InputProblem::NoCapacity(capacity), .. }) => capacity,
+                Err(_) => f64::NAN,
+            }
+        };
+        self.scaled.iter().map(one).collect()
+    }
+
     /// Heat content in J over the temperature of the start, at the temperatures `y` of the states in
     /// K, of each of [`Network::state_capacities`](lptn_network::Network::state_capacities).
     ///

@@ -1,6 +1,6 @@
 //! Errors of the header of a CSV file, its rows and cells.
 
-use lptn_units::{Type, suggest};
+use lptn_units::{Dimension, Type, suggest};
 
 use crate::diagnostic::Diagnostic;
 use crate::dialect::Dialect;
@@ -23,6 +23,10 @@ impl Head {
     /// The error of a column without a unit in a record.
     pub(crate) fn no_unit(&self, header: &Header, wanted: Option<Type>) -> Diagnostic {
         let name = &header.name;
+        if name.is_empty() {
+            let time = Type::of(Dimension::TIME);
+            return self.nameless(wanted.unwrap_or(time), &Asked::default());
+        }
         let problem = Diagnostic::error("record::no_unit", format!("column `{name}` has no unit"));
         if let Some((bare, unit)) = other_brackets(name) {
             return problem.help(format!("write its unit in square brackets: `{bare} [{unit}]`"));
@@ -46,6 +50,9 @@ impl Head {
         ask: &Asked,
     ) -> Diagnostic {
         let (name, due) = (&header.name, wanted.with_article());
+        if name.is_empty() {
+            return self.nameless(wanted, ask);
+        }
         let (is, help) = match header.unit {
             None => ("has no unit".to_owned(), "give the column its unit in the header"),
             Some(_) => (
@@ -59,6 +66,16 @@ impl Head {
         };
         let help = format!("{help}, for example `{name} [{}]`", wanted.usual_unit());
         Diagnostic::error(self.codes.unit, message).help(help)
+    }
+
+    /// The error of a column that is read and has no name.
+    fn nameless(&self, wanted: Type, ask: &Asked) -> Diagnostic {
+        let message = format!("{}a column has no name and no unit", ask.subject());
+        let name = if wanted == Type::of(Dimension::TIME) { "t" } else { "name" };
+        Diagnostic::error(self.codes.unit, message).help(format!(
+            "write both above it in the header, `{name} [{}]`, and use this name",
+            wanted.usual_unit()
+        ))
     }
 
     /// The error that there is no such column.

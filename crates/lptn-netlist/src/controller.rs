@@ -7,6 +7,10 @@
 //! section 11.4). Nothing switches, so a controller has no events. The derivative is that of the
 //! sensed temperature after a lag of first order: a step of the set point causes no impulse.
 //!
+//! With `sample` the output and the integral are sampled states: the sensor is read at each sample,
+//! and the output stays until the next one. The integral is a sum (rectangles), and the derivative
+//! the backward difference after the lag.
+//!
 //! Parameters of a controller have names, `NAME.K_p`, so that sweeps and fits can change them.
 
 use std::sync::Arc;
@@ -54,6 +58,12 @@ pub(crate) const CONTROLLER: SectionDeclaration = SectionDeclaration {
         akin("start", "quantity or expression", "the integral at the start", "0").or("0"),
         key("tracking", "s", "time in which the integral goes back to a limit", "\"60 s\"")
             .or("`abs(K_p / K_i)`"),
+        key(
+            "sample",
+            "s",
+            "time between samples; without it the controller acts at every moment",
+            "\"0.1 s\"",
+        ),
         words("acts", &words_of(&ACTS), "more output warms or cools", "\"cooling\"")
             .or("`\"heating\"`"),
     ],
@@ -69,7 +79,8 @@ pub(crate) const CONTROLLER: SectionDeclaration = SectionDeclaration {
         ("T_i", "the integral gain is `K_i`: `K_p / T_i`"),
         ("T_d", "the derivative gain is `K_d`: `K_p * T_d`"),
         ("on_above", "a thermostat is a [control]"),
-        ("sampling", "the controller acts at every moment, without samples"),
+        ("sampling", "the time between samples is `sample`"),
+        ("every", "the time between samples is `sample`"),
     ],
     ..SectionDeclaration::NEW
 };
@@ -78,11 +89,11 @@ pub(crate) const CONTROLLER: SectionDeclaration = SectionDeclaration {
 const ACTS: [(&str, bool); 2] = [("heating", true), ("cooling", false)];
 
 /// Keys that become parameters, signals or named values `NAME.KEY`.
-const GIVEN: [&str; 9] =
-    ["setpoint", "K_p", "K_i", "K_d", "lag", "min", "max", "start", "tracking"];
+const GIVEN: [&str; 10] =
+    ["setpoint", "K_p", "K_i", "K_d", "lag", "min", "max", "start", "tracking", "sample"];
 
 /// Values `NAME.KEY` that are not results.
-pub(crate) const INNER: [&str; 2] = ["error", "demand"];
+pub(crate) const INNER: [&str; 3] = ["error", "demand", "limited"];
 
 /// Replaces every controller by its values and states; the types that some of these have to have.
 pub(crate) fn expand(
@@ -109,10 +120,11 @@ pub(crate) fn expand(
 }
 
 /// The types of keys that do not follow from those of the output.
-const TYPES: [(&str, Type); 3] = [
+const TYPES: [(&str, Type); 4] = [
     ("setpoint", Type::ABSOLUTE_TEMPERATURE),
     ("lag", Type::of(Dimension::TIME)),
     ("tracking", Type::of(Dimension::TIME)),
+    ("sample", Type::of(Dimension::TIME)),
 ];
 
 /// Elements with their sections.
@@ -253,13 +265,6 @@ impl<'r> Controller<'r> {
             }
         }
         let (k_i, h) = (fields.get("K_i").is_some(), self.out.here);
-        if k_i && fields.get("tracking").is_none() {
-            self.out.text(
-                ValueKind::Parameter.section(),
-                "tracking",
-                format!("abs({h}.K_p / {h}.K_i)"),
-            );
-        }
         if k_i && fields.get("start").is_none() {
             self.out.text(ValueKind::Parameter.section(), "start", format!("0 * {h}.max"));
         }
@@ -278,28 +283,81 @@ impl<'r> Controller<'r> {
         }
         if self.fields.get("K_d").is_some() {
             let sign = if warms { '-' } else { '+' };
-            demand += &format!(" {sign} {h}.K_d * ({sense}.T - {h}.felt) / {h}.lag");
+            demand += &format!(" {sign} {h}.K_d * ({sense}.T - {h}.felt) / {}", self.delay());
         }
         self.out.text(value, "error", error);
         self.out.text(value, "demand", demand);
-        self.out.text(value, "", format!("min(max({h}.demand, {h}.min), {h}.max)"));
+        let name = if self.is_sampled() { "limited" } else { "" };
+        self.out.text(value, name, format!("min(max({h}.demand, {h}.min), {h}.max)"));
+    }
+
+    fn is_sampled(&self) -> bool {
+        self.fields.get("sample").is_some()
+    }
+
+    /// Time over which the derivative is taken: the lag, and the time since the last sample.
+    fn delay(&self) -> String {
+        let h = self.out.here;
+        match self.is_sampled() {
+            true => format!("({h}.lag + {h}.sample)"),
+            false => format!("{h}.lag"),
+        }
+    }
+
+    /// The keys of a state that changes at `rate`, from each sample to the next if the controller
+    /// samples.
+    fn changes(&self, name: &str, rate: &str) -> Vec<(&'static str, String)> {
+        let h = self.out.here;
+        match self.is_sampled() {
+            true => vec![
+                ("next", format!("{h}.{name} + {h}.sample * ({rate})")),
+                ("every", format!("{h}.sample")),
+            ],
+            false => vec![("rate", rate.to_owned())],
+        }
+    }
+
+    /// The output that stays from each sample to the next.
+    fn held(&mut self) {
+        let h = self.out.here;
+        let start = if self.fields.get("K_i").is_some() { "start" } else { "min" };
+        let state = self.out.table(&[
+            ("next", format!("{h}.limited")),
+            ("every", format!("{h}.sample")),
+            ("start", format!("min(max({h}.{start}, {h}.min), {h}.max)")),
+            ("size", format!("{h}.max - {h}.min")),
+        ]);
+        self.out.put(ValueKind::State.section(), "", state);
     }
 
     fn states(&mut self, problems: &mut Vec<Diagnostic>) -> Option<()> {
         let (h, sense) = (self.out.here, self.sense);
+        let sampled = self.is_sampled();
+        if sampled {
+            self.held();
+        }
         if self.fields.get("K_i").is_some() {
-            let rate = format!("{h}.K_i * {h}.error + ({h} - {h}.demand) / {h}.tracking");
-            let state = self.out.table(&[
-                ("rate", rate),
-                ("start", format!("{h}.start")),
-                ("size", format!("{h}.max - {h}.min")),
-            ]);
+            // so written, an integral gain of 0 leaves a proportional controller
+            let back = match self.fields.get("tracking") {
+                Some(_) => format!("1 / {h}.tracking"),
+                None => format!("abs({h}.K_i / {h}.K_p)"),
+            };
+            // a sample goes back to the limit at most, not beyond it
+            let (output, back) = match sampled {
+                true => (format!("{h}.limited"), format!("min({back}, 1 / {h}.sample)")),
+                false => (h.to_owned(), back),
+            };
+            let rate = format!("{h}.K_i * {h}.error + ({output} - {h}.demand) * {back}");
+            let mut keys = self.changes("integral", &rate);
+            keys.push(("start", format!("{h}.start")));
+            keys.push(("size", format!("{h}.max - {h}.min")));
+            let state = self.out.table(&keys);
             self.out.put(ValueKind::State.section(), "integral", state);
         }
         if self.fields.get("K_d").is_some() {
             let start = self.sensed_start(problems)?;
-            let mut state =
-                self.out.table(&[("rate", format!("({sense}.T - {h}.felt) / {h}.lag"))]);
+            let rate = format!("({sense}.T - {h}.felt) / {}", self.delay());
+            let mut state = self.out.table(&self.changes("felt", &rate));
             if let RawKind::Table(table) = &mut state.kind {
                 table.entries.push(RawEntry::new("start", start));
             }

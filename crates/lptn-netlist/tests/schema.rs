@@ -140,6 +140,7 @@ const NEEDED_BESIDE: &[&str] = &[
     "pipe_no_start",
     "plan_no_duration",
     "size_range_half",
+    "state_samples",
 ];
 
 /// A table is empty, a list too short, a text is no number, or `method` asks for a range.

@@ -18,6 +18,9 @@ const LOOKS: u32 = 256;
 /// Halvings of the interval in which it does: to the rounding of the time.
 const BISECTIONS: usize = 60;
 
+/// Most samples of a state in a run.
+const MOST_SAMPLES: f64 = 1e6;
+
 /// A stretch of time without a point of a signal inside, from and to in s.
 type Stretch = (f64, f64);
 
@@ -30,7 +33,7 @@ pub(crate) struct Watched<'a> {
 impl Network {
     /// The times inside `(start, stop)` in s at which an input of the heat flows may bend or jump,
     /// ascending: points of signals, changes of comparisons, kinks of `abs`, `min` and `max`, knots
-    /// of tables.
+    /// of tables, and the times at which states are sampled.
     ///
     /// A comparison goes straight between points of signals and kinks of its `abs`, `min` and `max`
     /// (the builder refuses others), so its two sides meet at most once there. Kinks of curves are
@@ -41,7 +44,35 @@ impl Network {
     /// # Errors
     /// [`InputProblem::TooManyPoints`] for a signal that is repeated beyond reason.
     pub fn breakpoints(&self, start: f64, stop: f64) -> Result<Vec<f64>, InputError> {
-        self.times_of(&self.parts.driving(), (start, stop))
+        let mut times = self.times_of(&self.parts.driving(), (start, stop))?;
+        if self.sample_times((start, stop), &mut times)? {
+            tidy(&mut times, start, stop);
+        }
+        Ok(times)
+    }
+
+    /// Adds the times at which states are sampled, multiples of the time between samples; false if
+    /// there are none.
+    fn sample_times(
+        &self,
+        (start, stop): Stretch,
+        times: &mut Vec<f64>,
+    ) -> Result<bool, InputError> {
+        let before = times.len();
+        for (id, every) in self.sampled_states() {
+            let (first, last) = ((start / every).ceil(), (stop / every).floor());
+            if last - first > MOST_SAMPLES {
+                return Err(InputError {
+                    item: Item::State(id),
+                    field: Field::Every,
+                    name: self.states()[id.index()].name.clone(),
+                    problem: InputProblem::TooManyPoints(last - first),
+                });
+            }
+            let count = (last - first).max(0.0) as u32;
+            times.extend((0..=count).map(|k| (first + f64::from(k)) * every));
+        }
+        Ok(times.len() > before)
     }
 
     /// The same for results: limits, reports and signals, which are evaluated over time too but

@@ -168,6 +168,7 @@ pub(crate) fn not_positive(field: Field, value: f64) -> &'static str {
         Field::Size | Field::CharacteristicLength => "a body has dimensions of more than zero",
         Field::Fill => "a winding has a conductor: its share is above 0",
         Field::Sector => "leave `angle` out for the full circle, or give one above 0 deg",
+        Field::Every => "give the time from one sample to the next, such as \"0.1 s\"",
         Field::LatentHeat => "melting takes up heat: give it as a positive number",
         _ => "check the sign: heat flows from the warm to the cold end, whichever is named first",
     }

@@ -262,6 +262,10 @@ pub enum Field {
     Rate,
     /// Expression whose zero determines a state.
     Balance,
+    /// Value of a sampled state from the next sample on.
+    Next,
+    /// Time between samples of a state.
+    Every,
     /// Least value of a state.
     Least,
     /// Greatest value of a state.
@@ -397,6 +401,8 @@ impl Field {
             Self::Start => "start",
             Self::Rate => "rate",
             Self::Balance => "balance",
+            Self::Next => "next",
+            Self::Every => "every",
             Self::Least => "min",
             Self::Most => "max",
             Self::UsualSize => "size",

@@ -22,6 +22,7 @@ use crate::balance::Books;
 use crate::events::Gates;
 use crate::newton_error::NewtonError;
 use crate::pipe::Shared;
+use crate::samples::Sampled;
 use crate::stop_reason::StopReason;
 use crate::tangent::Tangent;
 use crate::unfold::Unfold;
@@ -51,6 +52,8 @@ pub(crate) struct Heat<'a> {
     pub(crate) gates: Gates,
     /// The sensitivities that are followed.
     pub(crate) tangent: Option<Tangent<'a>>,
+    /// The sampled states, which keep their values; empty on the way to a steady state.
+    pub(crate) samples: Vec<Sampled>,
 }
 
 impl<'a> Heat<'a> {
@@ -80,6 +83,7 @@ impl<'a> Heat<'a> {
             fold: None,
             gates,
             tangent: None,
+            samples: Vec::new(),
         })
     }
 
@@ -203,6 +207,7 @@ impl<'a> Heat<'a> {
         let heat = self.system.flow(&mut self.work, self.unfold.last(), &mut self.flow);
         heat.map_err(StopReason::Input)?;
         flow.copy_from_slice(&self.flow[..flow.len()]);
+        self.samples.iter().for_each(|sampled| sampled.hold(flow));
         Ok(())
     }
 
@@ -335,6 +340,7 @@ impl OdeSystem for Heat<'_> {
         let heat = self.system.flow(&mut self.work, self.unfold.last(), &mut self.flow);
         heat.map_err(|error| self.failed(NewtonError::Input(error), Retry::SmallerStep))?;
         flow.copy_from_slice(&self.flow[..flow.len()]);
+        self.samples.iter().for_each(|sampled| sampled.hold(flow));
         self.failure = None;
         Ok(())
     }
@@ -360,6 +366,7 @@ impl OdeSystem for Heat<'_> {
         let slopes = self.system.jacobian_at(&mut self.work, self.unfold.last(), self.form, values);
         slopes.map_err(|error| self.failed(NewtonError::Input(error), Retry::SmallerStep))?;
         self.unfold.clear_pipes(values);
+        self.samples.iter().for_each(|sampled| sampled.hold_slopes(values));
         Ok(())
     }
 

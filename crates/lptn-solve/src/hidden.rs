@@ -41,8 +41,7 @@ impl<'a> Hidden<'a> {
         if self.bends.moved() == 0 || self.slots.is_empty() {
             return 0.0;
         }
-        let moved = (0..self.bends.moved()).map(|k| way(&interval.of(self.first + k)));
-        let bounds = self.bends.enclose(&moved.collect::<Vec<_>>(), self.slots);
+        let bounds = self.bounds(interval, WITHIN);
         let size =
             |bound: &Taylor| bound.range().map_or(f64::INFINITY, |[a, b]| a.abs().max(b.abs()));
         let sizes = self.sizes.get_or_insert_with(|| bounds.iter().map(size).collect());
@@ -52,10 +51,24 @@ impl<'a> Hidden<'a> {
         };
         bounds.iter().zip(&*sizes).map(one).fold(0.0, f64::max)
     }
+
+    /// The widest range of a nonlinear result in an interval, whatever hides in it; infinite if that
+    /// is not known.
+    pub(crate) fn width(&self, interval: &Interval) -> f64 {
+        let width = |bound: &Taylor| bound.range().map_or(f64::INFINITY, |[low, high]| high - low);
+        self.bounds(interval, -WITHIN).iter().map(width).fold(0.0, f64::max)
+    }
+
+    /// Bounds of the nonlinear results; ranges of numbers end this share of their width within.
+    fn bounds(&self, interval: &Interval, within: f64) -> Vec<Taylor> {
+        let moved = (0..self.bends.moved()).map(|k| way(&interval.of(self.first + k), within));
+        self.bends.enclose(&moved.collect::<Vec<_>>(), self.slots)
+    }
 }
 
-/// A number over an interval, as a polynomial through its points, by a variable from -1 to 1.
-fn way(values: &[f64; POINTS]) -> Taylor {
+/// A number over an interval, as a polynomial through its points, by a variable from -1 to 1; its
+/// range ends a share of its width `within`.
+fn way(values: &[f64; POINTS], within: f64) -> Taylor {
     let coefficients = coefficients(values);
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for value in values {
@@ -72,7 +85,7 @@ fn way(values: &[f64; POINTS]) -> Taylor {
     }
     let goes_one_way = values.is_sorted() || values.iter().rev().is_sorted();
     if goes_one_way {
-        let inside = WITHIN * (high - low);
+        let inside = within * (high - low);
         terms[0] = [low + inside, high - inside];
     }
     Taylor::between(&terms)
@@ -89,7 +102,7 @@ mod tests {
     use lptn_assembly::ThermalSystem;
     use lptn_network::{Bends, Item};
 
-    use super::{Hidden, way};
+    use super::{Hidden, WITHIN, way};
     use crate::interval::{Interval, NODES};
     use crate::reading::Reading;
 
@@ -105,7 +118,8 @@ mod tests {
         };
         for sign in [1.0, -1.0] {
             let exact = [3.0, -1.0, 0.5, 2.0, -0.25, 1.5, -4.0].map(|a: f64| sign * a);
-            let bounds = way(&NODES.map(|x| exact.iter().rev().fold(0.0, |sum, a| sum * x + a)));
+            let values = NODES.map(|x| exact.iter().rev().fold(0.0, |sum, a| sum * x + a));
+            let bounds = way(&values, WITHIN);
             for k in 0..7 {
                 let most = (k..7).map(|m| choose(m, k) * exact[m].abs()).sum();
                 near(bounds.largest(k), most);
@@ -121,7 +135,8 @@ mod tests {
     #[test]
     fn a_way_in_one_direction_stays_between_its_ends() {
         for sign in [1.0, -1.0] {
-            let bounds = way(&NODES.map(|x| 30.0 + sign * (100.0 * x + 10.0 * x * x)));
+            let values = NODES.map(|x| 30.0 + sign * (100.0 * x + 10.0 * x * x));
+            let bounds = way(&values, WITHIN);
             let [low, high] = bounds.range().unwrap();
             let ends = if sign > 0.0 { [-60.0, 140.0] } else { [-80.0, 120.0] };
             assert!((low - ends[0] - 2e-7).abs() < 1e-11 && (high - ends[1] + 2e-7).abs() < 1e-11);

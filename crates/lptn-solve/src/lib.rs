@@ -64,6 +64,7 @@ mod resolve;
 mod response;
 mod result_slopes;
 mod runaway;
+mod samples;
 #[cfg(test)]
 mod scripted;
 mod selection;

@@ -142,7 +142,7 @@ impl<'a> LimitWatch<'a> {
         (tolerance, window): (f64, Option<&WindowSeen>),
     ) -> Vec<LimitSeen> {
         let (end, margins) = std::mem::take(&mut self.last);
-        let mut all = std::mem::take(&mut self.look.seen);
+        let mut all = std::mem::take(&mut self.look).into_seen();
         let points = self.first.iter().zip(margins.into_iter().map(|margin| (end, margin)));
         for (seen, (first, last)) in all.iter_mut().zip(points) {
             let exact = first.is_some_and(|(_, margin)| margin < -ROUNDING);

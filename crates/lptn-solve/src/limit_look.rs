@@ -27,11 +27,15 @@ pub(crate) struct LimitLook {
     /// Sizes of the compared sides.
     pub(crate) sizes: Vec<f64>,
     halvings: Halvings,
+    /// For each limit the least margin that parts which are not resolved may hide; minus infinity if
+    /// they may hide an earlier break.
+    reaches: Vec<f64>,
 }
 
 impl LimitLook {
     pub(crate) fn new(seen: Vec<LimitSeen>, bends: Bends) -> Self {
-        Self { bends, seen, ..Self::default() }
+        let reaches = vec![f64::INFINITY; seen.len()];
+        Self { bends, seen, reaches, ..Self::default() }
     }
 
     /// Evaluates a step.
@@ -42,18 +46,36 @@ impl LimitLook {
             wanting: self.wanting(interval),
             hides: hidden.wanting(interval),
         };
+        let whole = step.clone();
         let parts = resolve(step, levels, self.halvings.0, (at, &mut judge))?;
         self.halvings.after(parts.iter().all(|part| part.told));
+        let open = parts.iter().any(|part| part.open);
+        let most = if open { hidden.width(&whole) } else { 0.0 };
         for Resolved { interval, open, .. } in &parts {
             let hides = *open && hidden.wanting(interval) > 0.0;
             for (limit, seen) in self.seen.iter_mut().enumerate() {
                 if *open {
-                    seen.leave_open(&interval.of(limit), (self.sizes[limit], hides));
+                    let most = hides.then_some(f64::min(most, self.sizes[limit]));
+                    let found = seen.leave_open(&interval.of(limit), (self.sizes[limit], most));
+                    let reach = found.unwrap_or(f64::INFINITY);
+                    let breaks = reach < 0.0 && seen.broken_at.is_none();
+                    let reach = if breaks { f64::NEG_INFINITY } else { reach };
+                    self.reaches[limit] = self.reaches[limit].min(reach);
                 }
                 of_limit(interval, (limit, self.sizes[limit]), seen, at)?;
             }
         }
         Ok(())
+    }
+
+    /// The results. A part that cannot hide a smaller margin than the least of the whole run leaves
+    /// nothing open.
+    pub(crate) fn into_seen(self) -> Vec<LimitSeen> {
+        let settled = |(seen, reach): (LimitSeen, f64)| {
+            let open = if reach < seen.margin { seen.open } else { 0.0 };
+            LimitSeen { open, ..seen }
+        };
+        self.seen.into_iter().zip(self.reaches).map(settled).collect()
     }
 
     /// Difference of the two rules of an interval for the worst limit that counts, over the allowed
@@ -76,16 +98,19 @@ const ROUNDED: f64 = 1e-6;
 
 impl LimitSeen {
     /// Records that a part of a step with these margins, of sides of this size, is not resolved any
-    /// further, and if something may hide in it.
-    fn leave_open(&mut self, margins: &[f64], (size, hides): (f64, bool)) {
+    /// further, and the change that may hide in it. The least margin that it may have then, if that
+    /// counts.
+    fn leave_open(&mut self, margins: &[f64], (size, hides): (f64, Option<f64>)) -> Option<f64> {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for &margin in margins {
             (low, high) = (low.min(margin), high.max(margin));
         }
-        let by = if hides { size } else { high - low };
-        if by > ROUNDED * size && (hides || counts(self, margins)) {
+        let by = hides.unwrap_or(high - low);
+        let open = by > ROUNDED * size && (hides.is_some() || counts(self, margins));
+        open.then(|| {
             self.open = self.open.max(by);
-        }
+            low - by
+        })
     }
 }
 

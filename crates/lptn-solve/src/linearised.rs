@@ -38,6 +38,10 @@ pub enum LinearisedError {
     Mass { name: String } = "linearised::mass",
         format!("the capacity of `{name}` follows a state: no small linear network has that"),
         help "write the capacity at the operating point as a number";
+    /// A state is sampled; its name.
+    Sampled { name: String } = "linearised::sampled",
+        format!("`{name}` is sampled: no small linear network has that"),
+        help "use a state with a `rate`, a controller without `sample`";
     /// The balances of the massless nodes cannot be solved for them.
     Singular = "linearised::singular",
         "the massless nodes do not respond to a small disturbance there",
@@ -91,6 +95,9 @@ impl<'a> Linearised<'a> {
         if let Some(of) = system.network().state_capacities().first() {
             let name = system.network().name_of(lptn_network::Item::Node(of.node)).into_owned();
             return Err(LinearisedError::Mass { name });
+        }
+        if let Some(name) = system.network().first_sampled() {
+            return Err(LinearisedError::Sampled { name });
         }
         if is_proportional(system) {
             return Self::of_proportional(system);

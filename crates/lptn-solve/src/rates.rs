@@ -46,6 +46,9 @@ impl<'a> StateRates<'a> {
         if let Some(node) = pipe::first(system) {
             return Err(Unsolved::Pipe { node });
         }
+        if let Some(state) = system.network().first_sampled() {
+            return Err(Unsolved::Sampled { state });
+        }
         let unfold = Unfold::new(system).map_err(|error| Unsolved::new(system, error))?;
         Ok(Self { system, work: system.workspace(), unfold, controls: Vec::new() })
     }

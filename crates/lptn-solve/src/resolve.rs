@@ -14,6 +14,9 @@ const MOST_CUTS: usize = 4096;
 /// is known to rounding.
 const SHORTEST: f64 = 1e-13;
 
+/// So is one as short as this share of the time.
+const ROUNDED: f64 = 4.0 * f64::EPSILON;
+
 /// A part of an interval, and a flag that its points resolve the curves between them.
 pub(crate) struct Resolved {
     pub(crate) interval: Interval,
@@ -49,7 +52,9 @@ pub(crate) fn resolve(
     mut halvings: usize,
     (at, judge): (&mut At<'_>, &mut dyn FnMut(&Interval) -> Judged),
 ) -> Result<Vec<Resolved>, StopReason> {
-    let shortest = SHORTEST * (whole.to - whole.from);
+    // a jump at the end of a short step is known to the rounding of the time
+    let rounding = ROUNDED * whole.from.abs().max(whole.to.abs());
+    let shortest = (SHORTEST * (whole.to - whole.from)).max(rounding);
     let (mut fresh, mut open, mut done) = (vec![whole], Vec::new(), Vec::new());
     let (mut cut, mut hiding) = (0, MOST_HIDING);
     loop {

@@ -49,6 +49,16 @@ pub enum StopReason {
     NothingSwitches = "run::no_capacity",
         "controls and comparisons of temperatures need a node with a capacity",
         help "give the nodes that are sensed a capacity";
+    /// The capacity of a node that follows states has fallen to zero: in J/K, and the states.
+    Empty { node: String, capacity: f64, states: Vec<String> } = "run::empty",
+        format!(
+            "the capacity of `{node}` has fallen to {} J/K: nothing is left to have a temperature",
+            six_digits(*capacity)
+        ),
+        help format!(
+            "give the state {} a `min` above zero, the rest that stays, or stop the run before",
+            list_of(states, "states")
+        );
     /// The heat of a source grows with the temperature of a node faster than the paths carry it
     /// off, from this temperature in K on.
     Runaway { node: String, source: String, from: f64 } = "run::runaway",

@@ -6,6 +6,7 @@ mod fold;
 mod guarded;
 mod piped;
 mod rest;
+mod sampled;
 
 use lptn_assembly::ThermalSystem;
 use lptn_integrate::Step;
@@ -108,7 +109,7 @@ impl Transient {
     ) -> Result<Option<Solution>, TransientError> {
         let rows = self.rows().map_err(TransientError::Settings)?;
         let network = system.network();
-        if network.reads_time() || !self.windows.is_empty() {
+        if network.reads_time() || !self.windows.is_empty() || network.first_sampled().is_some() {
             check_resolution(self.start, self.stop).map_err(TransientError::Settings)?;
         }
         let mut breakpoints =
@@ -217,6 +218,7 @@ impl<'a> Run<'a> {
         if !from.stood().is_empty() {
             heat.stand_at(from.stood());
         }
+        heat.samples = sampled::of(system, effort.care);
         let reads = (from, settings.tolerance, effort.care);
         let pipes = piped::attach(system, (&mut heat, &mut recorder), reads).map_err(unsolved)?;
         let mut carried = Vec::new();
@@ -319,9 +321,7 @@ impl<'a> Run<'a> {
         self.integrator.system_mut().enter(segment.inside());
         let due = std::mem::take(&mut self.due);
         self.switch(&due, first)?;
-        if !first {
-            self.integrator.restart(None).map_err(|e| self.failed(e))?;
-        }
+        self.sample(segment, first)?;
         self.enter(segment)
     }
 

@@ -43,6 +43,16 @@ pub enum Unsolved {
         format!("nothing determines `{state}`: its balance does not change with it"),
         help "a junction needs an open branch whose flow depends on its pressure, to a junction with \
             a known pressure; the `balance` of a [state] has to fall while the state rises";
+    /// No value of a state was found at which its balance is zero: by how much it still moved, in
+    /// its unit.
+    StateNotFound { state: String, change: f64, unit: String } = "solve::state_not_found",
+        format!(
+            "no value of `{state}` was found at which its balance is zero: it still moved by {} \
+             {unit}",
+            six_digits(*change)
+        ),
+        help "the `balance` has to fall while the state rises: if it rises, write it with the other \
+            sign, `-(..)`; else let `start` be near the solution";
     /// The numbers could not be factorised.
     Factorization(error: FactorError) = "solve::singular",
         format!("the balances cannot be factorised: {error}"),
@@ -75,6 +85,10 @@ pub enum Unsolved {
             "use `lptn run`, or join the two ends of `{node}` by an [advection] in place of the \
              [pipe]"
         );
+    /// A state jumps at its samples, which no rate shows.
+    Sampled { state: String } = "solve::sampled",
+        format!("`{state}` is sampled, and changes at its samples only"),
+        help "use `lptn run`, or a state with a `rate`, a controller without `sample`";
     /// Comparisons have no truth that agrees with the temperatures at one state, because each changes
     /// a temperature that is compared; their names.
     Restless { names: Vec<String> } = "run::restless",
@@ -113,6 +127,15 @@ fn reader(system: &ThermalSystem, unknown: usize) -> Option<String> {
     conductor.map(|id| network.name_of(Item::Conductor(id)).into_owned())
 }
 
+/// The reason for a state whose balance has no solution, or of which none was found.
+fn not_found(system: &ThermalSystem, unknown: usize, change: f64) -> Unsolved {
+    let state = system.network().state_at(system.unknowns()[unknown]);
+    let (name, change, unit) = state.map_or_else(Default::default, |state| {
+        (state.name.clone(), state.value(change), state.ty.dimension.si_unit())
+    });
+    Unsolved::StateNotFound { state: name, change, unit }
+}
+
 const SWINGS: &str = "check for a controller that senses a temperature too late for its gain; \
     `lptn run` shows the amplitude";
 
@@ -141,6 +164,9 @@ impl Unsolved {
             NewtonError::Fold { unknown } => Self::Fold { node: name(unknown) },
             NewtonError::NotEntered { unknown } => Self::Pipe { node: name(unknown) },
             NewtonError::Factorization(error) => Self::Factorization(error),
+            NewtonError::Stalled { unknown, change } if is_state(unknown) => {
+                not_found(system, unknown, change)
+            }
             NewtonError::Stalled { unknown, change } => {
                 Self::NotFound { node: name(unknown), change }
             }
@@ -154,6 +180,8 @@ impl Unsolved {
             Self::Factorization(_) | Self::Restless { .. } => "",
             Self::Undetermined { node, .. }
             | Self::UndeterminedState { state: node }
+            | Self::StateNotFound { state: node, .. }
+            | Self::Sampled { state: node }
             | Self::Unstable { node, .. }
             | Self::Fold { node }
             | Self::Pipe { node }

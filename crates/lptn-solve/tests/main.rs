@@ -43,6 +43,7 @@ mod periodic_events;
 mod pipes;
 mod properties;
 mod response;
+mod sampled;
 mod sensitive;
 mod snapshot;
 mod steady;

@@ -86,11 +86,15 @@ impl<'t> Sheet<'t> {
         row.len() == self.width && 2 * values.count() >= self.columns.len()
     }
 
-    /// True for a line with a name above every column of values.
+    /// True for a line with a name above every column of values. The first may have none: Excel and
+    /// pandas write the numbers or times of rows so.
     fn names(&self, line: usize) -> bool {
         let row = &self.cells[line];
-        let name = |column: &usize| row.get(*column).is_some_and(|c| !c.is_empty() && !is_value(c));
-        self.columns.iter().all(name)
+        let name = |column: &usize| {
+            let nameless = *column == 0 && row.len() == self.width;
+            row.get(*column).is_some_and(|c| (nameless || !c.is_empty()) && !is_value(c))
+        };
+        self.columns.iter().all(name) && self.columns.iter().any(|column| !row[*column].is_empty())
     }
 
     /// True for a line with units below a line of names.

@@ -42,6 +42,8 @@ pub(crate) fn choose(
     for index in all(head, first, position) {
         match logged && unusable(&head.columns[index]) {
             _ if clock.is_some_and(|clock| clock.takes(index)) => {}
+            // the numbers of rows, as Excel and pandas write them
+            _ if clock.is_some() && head.columns[index].written.is_empty() => {}
             true => skipped.push(head.columns[index].name.clone()),
             false => wanted.push(index),
         }
@@ -175,6 +177,12 @@ pub(crate) fn of_any(head: &Head, index: usize, of_run: bool) -> Result<CsvColum
 fn no_time(head: &Head) -> Diagnostic {
     let problem = Diagnostic::error("record::no_time", "no column contains the times")
         .at(head.place.clone(), "no unit here is one of time");
+    if head.columns.first().is_some_and(|first| first.written.is_empty()) {
+        return problem.help(
+            "the first column has no name: if it contains the times, write their name and unit in \
+             the header, `t [s]`",
+        );
+    }
     let dated = head.columns.iter().find(|header| {
         let name = header.name.to_ascii_lowercase();
         ["date", "clock", "time"].iter().any(|word| name.contains(word))

@@ -1,6 +1,6 @@
 //! `[state]` and `[value]`.
 
-use lptn_network::{State, Value};
+use lptn_network::{Field, State, Value};
 use lptn_units::{Dimension, Type, Unit, parse_quantity};
 
 use super::Writer;
@@ -22,7 +22,12 @@ impl Writer<'_> {
         let source = state.source.map(|id| &self.network.sources()[id.index()]);
         let rate = source.and_then(|source| source.power());
         let key = state.law().key();
-        rate.into_iter().for_each(|rate| fields.put(key, like(rate, per_second)));
+        let ty = if state.every.is_some() { state.ty } else { per_second };
+        rate.into_iter().for_each(|rate| fields.put(key, like(rate, ty)));
+        let every = state.every.as_ref();
+        every.into_iter().for_each(|every| {
+            fields.put(Field::Every.key(), like(every, Type::of(Dimension::TIME)));
+        });
         let values =
             [("start", &state.start), ("min", &state.bounds[0]), ("max", &state.bounds[1])];
         for (key, given) in values {

@@ -36,7 +36,8 @@ impl<'a> Elaboration<'a> {
             .iter()
             .chain(&hydraulic::INNER)
             .find_map(|inner| name.strip_suffix(inner)?.strip_suffix('.'));
-        of.is_none_or(|of| self.names.value_kind(of) != Some(ValueKind::Value))
+        let whole = [Some(ValueKind::Value), Some(ValueKind::State)];
+        of.is_none_or(|of| !whole.contains(&self.names.value_kind(of)))
     }
 
     fn named_value(&mut self, mut pending: Pending<'a>) -> Option<()> {

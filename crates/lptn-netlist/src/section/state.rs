@@ -22,6 +22,13 @@ pub(crate) const STATE: SectionDeclaration = SectionDeclaration {
             "instead of `rate`: the sum that is zero at all times, and falls while the state rises",
             "\"inflow - p / R\"",
         ),
+        akin(
+            "next",
+            "quantity or expression",
+            "instead of `rate`: its value from each sample to the next",
+            "\"if(body.T < 60 [degC], 1, 0)\"",
+        ),
+        akin("every", "time or expression", "the time between samples, with `next`", "\"0.1 s\""),
         akin("start", "quantity or expression", "its value at the start", "\"500 g\"").needed(),
         akin("min", "quantity or expression", "its least value, where it stops", "\"0 g\""),
         akin("max", "quantity or expression", "its greatest value, where it stops", "\"500 g\""),
@@ -33,7 +40,7 @@ pub(crate) const STATE: SectionDeclaration = SectionDeclaration {
         )
         .or("`max - min`, else the size of `start`"),
     ],
-    either: &[&["rate", "balance"]],
+    either: &[&["rate", "balance", "next"]],
     example: "{ rate = \"-0.2 g/s\", start = \"500 g\", min = \"0 g\" }",
     elsewhere: &[
         ("initial", "the value at the start is `start`"),
@@ -93,6 +100,8 @@ impl<'a> Elaboration<'a> {
             Field::Start,
             Field::Rate,
             Field::Balance,
+            Field::Next,
+            Field::Every,
             Field::Least,
             Field::Most,
             Field::UsualSize,
@@ -108,7 +117,12 @@ impl<'a> Elaboration<'a> {
     fn is_balanced(&mut self, fields: &Fields<'a>) -> bool {
         let balanced = fields.has("balance");
         if balanced {
-            self.refuse_keys(fields, &["rate", "min", "max"], "has no effect with `balance`");
+            let others = ["rate", "next", "every", "min", "max"];
+            self.refuse_keys(fields, &others, "has no effect with `balance`");
+        } else if fields.has("next") {
+            self.refuse_keys(fields, &["rate", "min", "max"], "has no effect with `next`");
+        } else {
+            self.refuse_keys(fields, &["every"], "has no effect without `next`");
         }
         balanced
     }
@@ -154,10 +168,13 @@ impl<'a> Elaboration<'a> {
                 "{} starts at zero and has not both `min` and `max`, so its size is not known",
                 fields.owner.words()
             );
+            let size = match ty.dimension == Dimension::NONE {
+                true => "1".to_owned(),
+                false => format!("\"1 {}\"", ty.dimension.si_unit()),
+            };
             let help = format!(
-                "add the size of a usual change, `size = \"1 {}\"`: the tolerance of the state is \
-                 1e-7 of it",
-                ty.dimension.si_unit()
+                "add the size of a usual change, `size = {size}`: the tolerance of the state is \
+                 1e-7 of it"
             );
             let place = fields.place.clone();
             self.refuse("network::state_size", message, &place, help);
@@ -177,14 +194,24 @@ impl<'a> Elaboration<'a> {
 
     fn state_law(&mut self, state: &Named<'a>) -> Option<()> {
         let fields = &state.fields;
-        let key = if fields.has("balance") { "balance" } else { "rate" };
+        let given = ["balance", "next"].into_iter().find(|key| fields.has(key));
+        let key = given.unwrap_or("rate");
         let raw = self.require(fields, key)?;
         let per_second = state.ty.dimension.checked_div(Dimension::TIME).map(Type::of);
-        let wanted = per_second.filter(|_| key == "rate");
+        let wanted = match key {
+            "rate" => per_second,
+            "next" => Some(state.ty),
+            _ => None,
+        };
+        let every = match key {
+            "next" => Some(self.every(fields)?),
+            _ => None,
+        };
         let wanted = Wanted::of_law(wanted, lptn_network::Context::Control);
         let (rate, _) = self.written(fields, key, wanted)?;
         let bounds = [0, 1].map(|side: usize| state.bounds[side].as_ref());
-        let law = StateLaw { start: &state.start, rate: &rate, bounds };
+        let every = every.as_ref();
+        let law = StateLaw { start: &state.start, rate: &rate, every, bounds };
         let place = Place { owner: &fields.owner, key, raw };
         match self.builder.state_law(state.id, law) {
             Ok(source) => {
@@ -204,6 +231,13 @@ impl<'a> Elaboration<'a> {
                 None
             }
         }
+    }
+
+    /// The time between samples.
+    fn every(&mut self, fields: &Fields<'a>) -> Option<Expression> {
+        self.require(fields, "every")?;
+        let time = Wanted::like(Type::of(Dimension::TIME));
+        self.written(fields, "every", time).map(|(every, _)| every)
     }
 
     /// The expression of a key, whose value and type were checked.

@@ -28,8 +28,11 @@ const HEAT_OF_BALANCE: f64 = 1e3;
 pub struct StateLaw<'a> {
     /// Its value at the start, over parameters.
     pub start: &'a Expression,
-    /// Its change in its unit per second; for a state with a balance the expression that is zero.
+    /// Its change in its unit per second; for a state with a balance the expression that is zero,
+    /// for a sampled state its value from the next sample on.
     pub rate: &'a Expression,
+    /// The time between samples, over parameters, of a sampled state.
+    pub every: Option<&'a Expression>,
     /// Its least and its greatest value, over parameters.
     pub bounds: [Option<&'a Expression>; 2],
 }
@@ -41,7 +44,7 @@ impl NetworkBuilder {
     /// Expressions that are compiled afterwards may use its name where they may use the temperature
     /// of a node. [`NetworkBuilder::state_law`] gives its start and its rate.
     pub fn state(&mut self, name: &str, ty: Type, size: f64) -> StateId {
-        let id = self.push_state(name, ty, size);
+        let id = self.push_state(name, ty, (size, false));
         let node = self.parts.states[id.index()].node;
         self.parts.nodes[node.index()].capacity = Some(Value::Constant(1.0));
         id
@@ -50,20 +53,19 @@ impl NetworkBuilder {
     /// Adds a state that has at every moment the value at which its balance is zero, such as the
     /// pressure of a junction. The balance has to fall while the value rises.
     pub fn balanced_state(&mut self, name: &str, ty: Type, size: f64) -> StateId {
-        let id = self.push_state(name, ty, size);
-        let state = &mut self.parts.states[id.index()];
-        state.balanced = true;
-        self.parts.nodes[state.node.index()].massless = true;
+        let id = self.push_state(name, ty, (size, true));
+        let node = self.parts.states[id.index()].node;
+        self.parts.nodes[node.index()].massless = true;
         id
     }
 
-    fn push_state(&mut self, name: &str, ty: Type, size: f64) -> StateId {
+    fn push_state(&mut self, name: &str, ty: Type, (size, balanced): (f64, bool)) -> StateId {
         let id = StateId::from_len(self.parts.states.len());
         let item = Item::State(id);
         if !(size.is_finite() && size > 0.0) {
             self.error(name, BuildErrorKind::StateSize { state: id, size });
         }
-        let scale = scale_of(size, ty);
+        let scale = scale_of(size, ty, balanced);
         let meaning = Expression::scaled(&inner_name(name), scale, ty);
         if meaning.is_none() {
             self.error(name, BuildErrorKind::StateSize { state: id, size });
@@ -73,7 +75,8 @@ impl NetworkBuilder {
             name: name.to_owned(),
             ty,
             scale,
-            balanced: false,
+            balanced,
+            every: None,
             node,
             source: None,
             start: None,
@@ -130,11 +133,18 @@ impl NetworkBuilder {
             bound.map(|bound| bound.compile(&scope, Some(ty))).transpose()
         };
         let bounds = [bound(law.bounds[0])?, bound(law.bounds[1])?];
+        let every = law.every.map(|every| {
+            every.compile(&self.scope(Context::Time), Some(Type::of(Dimension::TIME)))
+        });
+        let every = every.transpose()?;
         let inner = law.start.inside(&in_kelvin(ty, scale), HOLE);
         let inner = inner.compile(&self.scope(Context::Time), None)?;
-        let frame = match balanced {
-            true => balance_as_heat(law.rate.compile(&self.scope(Context::Control), None)?.ty()),
-            false => as_heat(&name, ty, scale, law.bounds),
+        let frame = match law.every {
+            _ if balanced => {
+                balance_as_heat(law.rate.compile(&self.scope(Context::Control), None)?.ty())
+            }
+            Some(every) => change_as_heat(&name, (ty, scale), every),
+            None => as_heat(&name, ty, scale, law.bounds),
         };
         let rate = law.rate.inside(&frame, HOLE);
         let heat = rate.compile(&self.scope(Context::Control), Some(POWER))?;
@@ -145,6 +155,7 @@ impl NetworkBuilder {
         let state = &mut self.parts.states[id.index()];
         state.source = Some(source);
         state.start = Some(constant(start));
+        state.every = every.map(constant);
         state.bounds = bounds.map(|bound| bound.map(constant));
         Ok(source)
     }
@@ -237,6 +248,18 @@ fn balance_as_heat(ty: Type) -> Expression {
     let heat = Expression::literal(HEAT_OF_BALANCE, POWER);
     let one = Expression::literal(1.0, Type::of(ty.dimension));
     template("x * heat / one", &[("heat", &heat), ("one", &one)])
+}
+
+/// The heat in W into the node of a sampled state, of 1 J/K, for the value `x` from the next sample
+/// on.
+fn change_as_heat(name: &str, (ty, scale): (Type, f64), every: &Expression) -> Expression {
+    let own = template("own", &[]).renamed(&|_| Some(name.to_owned()));
+    let (energy, scale) = (
+        Expression::literal(1.0, Type::of(Dimension::ENERGY)),
+        Expression::literal(scale, Type::of(ty.dimension)),
+    );
+    let parts = [("own", &own), ("every", every), ("energy", &energy), ("scale", &scale)];
+    template("(x - own) / every * energy / scale", &parts)
 }
 
 /// The heat in W into the node of a state, of 1 J/K, for the rate `x`.

@@ -66,6 +66,17 @@ impl Network {
         self.numbers.bounds[id.index()].map(|bound| state.kelvin(bound))
     }
 
+    /// The sampled states, each with the time between its samples in s.
+    pub fn sampled_states(&self) -> impl Iterator<Item = (StateId, f64)> + '_ {
+        self.state_ids().zip(&self.numbers.sampling).filter_map(|(id, every)| Some((id, (*every)?)))
+    }
+
+    /// The name of the first sampled state.
+    pub fn first_sampled(&self) -> Option<String> {
+        let (id, _) = self.sampled_states().next()?;
+        Some(self.states()[id.index()].name.clone())
+    }
+
     /// The values of all states, as [`Network::state_value`].
     pub fn state_values<'a>(&'a self, nodes: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
         self.state_ids().map(|id| self.state_value(id, nodes))

@@ -51,6 +51,8 @@ pub(crate) struct Numbers {
     pub(crate) min_dwell: Vec<f64>,
     /// Least and greatest value of each state in SI units; infinite without a bound.
     pub(crate) bounds: Vec<[f64; 2]>,
+    /// The time between samples of each state in s.
+    pub(crate) sampling: Vec<Option<f64>>,
     pub(crate) pipes: Vec<Pipe>,
     /// The nodes whose capacity follows states, ascending.
     pub(crate) state_capacities: Vec<StateCapacity>,
@@ -87,6 +89,7 @@ impl Numbers {
         work.check_limits();
         let min_dwell = work.controls();
         let bounds = work.check_states();
+        let sampling = work.sampling();
         let pipes = work.pipes();
         whole::collapse(parts, &mut work.errors);
         if !work.errors.is_empty() {
@@ -114,6 +117,7 @@ impl Numbers {
                 shapes,
                 min_dwell,
                 bounds,
+                sampling,
                 pipes,
                 state_capacities,
             })

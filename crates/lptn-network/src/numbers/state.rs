@@ -8,7 +8,21 @@ use crate::id::{Field, Item, NodeId, StateId};
 use crate::parts::Parts;
 use crate::parts::state::State;
 
+/// The least time between samples in s: a run has as many parts as samples.
+const SHORTEST: f64 = 1e-9;
+
 impl Work<'_> {
+    /// The time between samples of each state in s; `None` for one that is not sampled.
+    pub(crate) fn sampling(&mut self) -> Vec<Option<f64>> {
+        let states = self.parts.states.iter().enumerate();
+        let one = |(i, state): (usize, &State)| {
+            let item = Item::State(StateId::from_len(i));
+            let every = state.every.as_ref()?;
+            Some(self.constant(item, Field::Every, every, Range::Positive).max(SHORTEST))
+        };
+        states.map(one).collect()
+    }
+
     /// Checks that each state has a rate and a start inside its bounds, which are returned.
     pub(crate) fn check_states(&mut self) -> Vec<[f64; 2]> {
         let states = self.parts.states.iter().enumerate();

@@ -6,6 +6,10 @@
 //! events and sensitivities then need nothing of their own, and one tolerance in K serves all. Its
 //! node and source are not a part of the energy balance.
 //!
+//! A sampled state has its next value instead of a rate, from one sample to the next. Its rate is
+//! the change over the time between samples, so that a steady state is one that repeats itself; a
+//! run keeps its value between samples (`lptn-solve`, `samples.rs`).
+//!
 //! A state with a balance instead of a rate, such as the pressure of a junction, is a massless node
 //! without paths: Newton's method finds the value at which its balance is zero.
 
@@ -27,6 +31,8 @@ pub struct State {
     pub scale: f64,
     /// True if a balance determines it at every moment, false if it has a rate.
     pub balanced: bool,
+    /// The time between samples in s; `None` if it is not sampled.
+    pub every: Option<Value>,
     /// The node that contains it.
     pub node: NodeId,
     /// The source that changes it; `None` until
@@ -50,12 +56,16 @@ impl State {
 
     /// The field that determines it.
     pub fn law(&self) -> Field {
-        if self.balanced { Field::Balance } else { Field::Rate }
+        match (self.balanced, &self.every) {
+            (true, _) => Field::Balance,
+            (false, Some(_)) => Field::Next,
+            (false, None) => Field::Rate,
+        }
     }
 
     /// A usual size in SI units with this scale.
     pub fn size(&self) -> f64 {
-        64.0 * self.scale
+        usual_size(self.balanced).exp2() * self.scale
     }
 
     /// The temperature of its node in K for a value in SI units.
@@ -70,9 +80,18 @@ pub(crate) fn inner_name(state: &str) -> String {
 }
 
 /// The scale of a state of this usual size: a power of two, so that nothing is rounded, by which
-/// the size is 64 K to 128 K.
+/// the size is 512 K to 1024 K with a rate, and 64 K to 128 K with a balance.
 ///
-/// With a tolerance of 1e-5 K the state has an error of about 1e-7 of its size.
-pub(crate) fn scale_of(size: f64, ty: Type) -> f64 {
-    if ty.is_temperature() { 1.0 } else { (size.log2().floor() - 6.0).exp2() }
+/// With a tolerance of 1e-5 K the state has an error of about 1e-7 of its size. The integrator
+/// limits the error of a step, and an integral collects those of the temperatures in its rate: steps
+/// are allowed an eighth of it. Of 1000 random controllers the worst was then off by 7 tolerances
+/// instead of 31, for a third more steps.
+pub(crate) fn scale_of(size: f64, ty: Type, balanced: bool) -> f64 {
+    let usual = usual_size(balanced);
+    if ty.is_temperature() { 1.0 } else { (size.log2().floor() - usual).exp2() }
+}
+
+/// Logarithm to base 2 of the least usual size in K of the node.
+fn usual_size(balanced: bool) -> f64 {
+    if balanced { 6.0 } else { 9.0 }
 }

@@ -22,13 +22,16 @@ pub struct StateCapacity {
 }
 
 impl Parts {
-    /// True if a value reads states, and no other temperature. A state with a balance has no rate:
-    /// it does not count.
+    /// True if a value reads states, and no other temperature. A state with a balance or with samples
+    /// has no rate: it does not count.
     pub(crate) fn follows_states(&self, value: &Value) -> bool {
         let reads = self.reads(value);
         let is_state = |end: &End| {
             let End::Node(node) = end else { return false };
-            self.state_at(*node).is_some_and(|id| !self.states[id.index()].balanced)
+            self.state_at(*node).is_some_and(|id| {
+                let state = &self.states[id.index()];
+                !state.balanced && state.every.is_none()
+            })
         };
         let others = reads.own || reads.link || reads.temperatures.is_empty();
         !others && reads.temperatures.iter().all(is_state)

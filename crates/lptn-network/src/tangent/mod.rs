@@ -67,6 +67,7 @@ impl Network {
         let influence = Influence::new(self, &variables);
         refusal::check_events(&influence)?;
         refusal::check_pipes(self)?;
+        refusal::check_samples(self)?;
         self.tangents_of(&influence, &variables)
     }
 

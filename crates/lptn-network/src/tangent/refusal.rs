@@ -6,7 +6,7 @@ use lptn_units::Problem;
 
 use super::Pass;
 use super::influence::Influence;
-use crate::id::{FacePathId, FluidId, GridId, GridPatch, Item, NodeId};
+use crate::id::{FacePathId, FluidId, GridId, GridPatch, Item, NodeId, StateId};
 use crate::network::Network;
 use crate::parts::shape::Shape;
 
@@ -35,6 +35,10 @@ pub enum NoTangents for |say: &dyn Fn(Item, &str) -> String| at Item {
     /// The fluid that leaves a pipe entered earlier.
     Pipe { node: NodeId } = "sensitivity::pipe", at Some(Item::Node(*node)),
         says format!("the fluid in {} entered earlier", say(Item::Node(*node), "a pipe")),
+        help None;
+    /// A state is sampled.
+    Sampled { state: StateId } = "sensitivity::sampled", at Some(Item::State(*state)),
+        says format!("{} is sampled", say(Item::State(*state), "a state")),
         help None;
     /// The capacity of a node follows a state.
     Mass { node: NodeId } = "sensitivity::mass", at Some(Item::Node(*node)),
@@ -101,6 +105,14 @@ pub(super) fn check_fluids(network: &Network, influence: &Influence<'_>) -> Resu
 pub(super) fn check_pipes(network: &Network) -> Result<(), NoTangents> {
     match network.pipes().first() {
         Some(pipe) => Err(NoTangents::Pipe { node: pipe.node }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses runs with sampled states: they jump at every sample.
+pub(super) fn check_samples(network: &Network) -> Result<(), NoTangents> {
+    match network.sampled_states().next() {
+        Some((state, _)) => Err(NoTangents::Sampled { state }),
         None => Ok(()),
     }
 }

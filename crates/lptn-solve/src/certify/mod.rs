@@ -23,7 +23,7 @@ mod way;
 
 use lptn_assembly::ThermalSystem;
 use lptn_integrate::{IntegrateError, Pattern};
-use lptn_network::{Evaluation, Item, NodeId};
+use lptn_network::{Evaluation, Item, Network, NodeId};
 use lptn_units::Taylor;
 
 use bound::{Bound, Line};
@@ -347,6 +347,13 @@ impl<'a> Certifier<'a> {
     }
 }
 
+/// Refuses states that change at their samples.
+fn no_samples(network: &Network) -> Result<(), Uncertified> {
+    network
+        .first_sampled()
+        .map_or(Ok(()), |name| Err(Uncertified::Node { name, because: "is sampled".to_owned() }))
+}
+
 /// Refuses the parts of a network that have no bounds.
 fn is_covered(system: &ThermalSystem) -> Result<(), Uncertified> {
     let network = system.network();
@@ -362,6 +369,7 @@ fn is_covered(system: &ThermalSystem) -> Result<(), Uncertified> {
     let node = |id: NodeId, because: &str| {
         Err(Uncertified::Node { name: name(id), because: because.to_owned() })
     };
+    no_samples(network)?;
     if let Some(pipe) = network.pipes().first() {
         return node(pipe.node, "is a pipe, whose fluid entered earlier");
     }

@@ -13,7 +13,7 @@ use lptn_network::Item;
 use lptn_units::Taylor;
 
 use super::shifted::Shifted;
-use super::{ROUNDING, Uncertified};
+use super::{ROUNDING, Uncertified, no_samples};
 use crate::snapshot::Snapshot;
 use crate::times::just_after;
 
@@ -34,10 +34,12 @@ impl Snapshot {
     /// positions of controls, in the order of the network. No other steady state is within them.
     ///
     /// # Errors
-    /// [`Uncertified::Law`] if the heat of an element has no bounds, [`Uncertified::Lost`] if no
+    /// [`Uncertified::Node`] for a sampled state, [`Uncertified::Law`] if the heat of an element has
+    /// no bounds, [`Uncertified::Lost`] if no
     /// box was found, as if no path leads to a boundary.
     pub fn proven_errors(&self, system: &ThermalSystem) -> Result<Vec<f64>, Uncertified> {
         let network = system.network();
+        no_samples(network)?;
         let no_law = |item: Item| Uncertified::Law {
             name: network.name_of(item).into_owned(),
             time: self.time,

@@ -125,6 +125,9 @@ impl ExactSolution {
             let name = network.nodes()[pipe.node.index()].name.clone();
             return Err(ExactError::NotLinear { name });
         }
+        if let Some(name) = network.first_sampled() {
+            return Err(ExactError::NotLinear { name });
+        }
         let breakpoints = network.breakpoints(start, stop)?;
         let reduced = Reduced::with_streams(network)?;
         let mut rows = Rows::new(network, &reduced, (start, times))?;

@@ -168,23 +168,23 @@ fn noise_leaves_a_margin_open_by_what_was_seen_of_it() {
 
 #[test]
 fn what_is_left_open_is_the_range_of_the_margins_or_all_where_something_hides() {
-    let open = |margins: &[f64], (size, hides): (f64, bool), seen: LimitSeen| {
+    let open = |margins: &[f64], (size, hides): (f64, Option<f64>), seen: LimitSeen| {
         let mut seen = seen;
         seen.leave_open(margins, (size, hides));
         seen.open
     };
     let held = LimitSeen { margin: 1.0, ..unseen() };
-    near(open(&[2.0, 5.0, 3.0], (10.0, false), unseen()), 3.0);
-    near(open(&[2.0, 5.0, 3.0], (10.0, true), unseen()), 10.0);
-    near(open(&[2.0, 5.0, 3.0], (10.0, false), LimitSeen { open: 4.0, ..unseen() }), 4.0);
+    near(open(&[2.0, 5.0, 3.0], (10.0, None), unseen()), 3.0);
+    near(open(&[2.0, 5.0, 3.0], (10.0, Some(10.0)), unseen()), 10.0);
+    near(open(&[2.0, 5.0, 3.0], (10.0, None), LimitSeen { open: 4.0, ..unseen() }), 4.0);
     // 4 - (5 - 4) does not come below 1, 2.9 - 2.1 does
-    assert!(open(&[4.0, 5.0], (10.0, false), held) == 0.0);
-    near(open(&[2.9, 5.0], (10.0, false), held), 2.1);
-    near(open(&[4.0, 5.0], (10.0, true), held), 10.0);
+    assert!(open(&[4.0, 5.0], (10.0, None), held) == 0.0);
+    near(open(&[2.9, 5.0], (10.0, None), held), 2.1);
+    near(open(&[4.0, 5.0], (10.0, Some(10.0)), held), 10.0);
     // a change of a part in 1e6 of the sides is rounding
-    assert!(open(&[2.0, 2.0 + 9e-6], (10.0, false), unseen()) == 0.0);
-    near(open(&[2.0, 2.0 + 1.1e-5], (10.0, false), unseen()), 1.1e-5);
-    assert!(open(&[2.0, 2.0 + 9e-4], (1e3, false), unseen()) == 0.0);
+    assert!(open(&[2.0, 2.0 + 9e-6], (10.0, None), unseen()) == 0.0);
+    near(open(&[2.0, 2.0 + 1.1e-5], (10.0, None), unseen()), 1.1e-5);
+    assert!(open(&[2.0, 2.0 + 9e-4], (1e3, None), unseen()) == 0.0);
 }
 
 /// No curve that its points resolve leaves their range by as much again.

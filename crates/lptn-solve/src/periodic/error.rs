@@ -31,6 +31,10 @@ pub enum PeriodicError {
     Pipe { name: String } = "periodic::pipe",
         format!("the periodic steady state of a network with the pipe `{name}` is not available"),
         help "use `lptn run` until two cycles are alike";
+    /// A state is sampled: its samples need not repeat with the cycle.
+    Sampled { name: String } = "periodic::sampled",
+        format!("the periodic steady state of a network with the sampled `{name}` is not available"),
+        help "use `lptn run` until two cycles are alike, or a controller without `sample`";
     /// The cycles do not reach the same state; the smallest difference in K between the start of a
     /// cycle and its end.
     NotFound { cycles: usize, residual: f64 } = "periodic::not_found",

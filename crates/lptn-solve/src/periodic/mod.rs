@@ -63,7 +63,16 @@ pub struct Periodic {
     pub error: f64,
 }
 
+/// A multiplier above this shows an unstable state; one of a state that nothing brings back is 1,
+/// to the errors of cycles.
+const UNSTABLE: f64 = 1.01;
+
 impl Periodic {
+    /// The factor by which a cycle multiplies a disturbance, if the state is unstable.
+    pub fn grows(&self) -> Option<f64> {
+        self.multiplier.filter(|factor| *factor > UNSTABLE)
+    }
+
     /// The periodic state of a network whose inputs repeat after `settings.stop - settings.start`,
     /// and the cycle from there on.
     ///
@@ -93,6 +102,9 @@ impl Periodic {
             .map_err(|e| PeriodicError::Cycle(crate::error::TransientError::Settings(e)))?;
         if let Some(name) = pipe::first(system) {
             return Err(PeriodicError::Pipe { name });
+        }
+        if let Some(name) = system.network().first_sampled() {
+            return Err(PeriodicError::Sampled { name });
         }
         let (network, period) = (system.network(), settings.stop - settings.start);
         let repeats = network.check_period(settings.start, period)?;

@@ -1,6 +1,7 @@
 //! Reasons why a run breaks off.
 
 use lptn_integrate::{FactorError, IntegrateError};
+use lptn_network::NodeId;
 
 use super::{Break, Run};
 use crate::newton_error::NewtonError;
@@ -13,6 +14,9 @@ const CRAWL: f64 = 1e-9;
 
 /// … if there are this many. The first step of a segment may be one of them by chance.
 const PATIENCE: usize = 8;
+
+/// A capacity below this share of that at the start is none.
+const EMPTY: f64 = 1e-9;
 
 /// The same before the end of a branch.
 const FOLD_PATIENCE: usize = 400;
@@ -41,7 +45,9 @@ impl Run<'_> {
     fn reason(&self, failure: NewtonError) -> StopReason {
         match failure {
             NewtonError::Input(input) => StopReason::Input(input),
-            other => StopReason::Unsolved(Unsolved::new(self.recorder.system(), other)),
+            other => self.empty().unwrap_or_else(|| {
+                StopReason::Unsolved(Unsolved::new(self.recorder.system(), other))
+            }),
         }
     }
 
@@ -54,6 +60,19 @@ impl Run<'_> {
         Some(runaway.reason(system))
     }
 
+    /// The first node of which nothing is left: its capacity follows states that fell to zero.
+    fn empty(&self) -> Option<StopReason> {
+        let (system, y) = (self.recorder.system(), self.integrator.state());
+        let (network, mut work) = (system.network(), system.workspace());
+        let contents = system.capacities_of_states(&mut work, y);
+        let node = |id: &NodeId| network.nodes()[id.index()].name.clone();
+        let mut all = network.state_capacities().iter().zip(contents);
+        all.find(|(of, now)| *now <= EMPTY * network.capacity(of.node)).map(|(of, capacity)| {
+            let states = of.states.iter().map(node).collect();
+            StopReason::Empty { node: node(&of.node), capacity, states }
+        })
+    }
+
     /// The reason of a failure: that of the system has precedence over that of the integrator.
     pub(super) fn failed(&mut self, error: IntegrateError) -> Break {
         if let Some(failure) = self.integrator.system_mut().failure.take() {
@@ -64,8 +83,8 @@ impl Run<'_> {
         {
             return Break::Failed(self.reason(NewtonError::Singular { unknown }));
         }
-        if let Some(runaway) = self.runaway() {
-            return Break::Failed(runaway);
+        if let Some(reason) = self.empty().or_else(|| self.runaway()) {
+            return Break::Failed(reason);
         }
         let node = error.component().map(|state| self.recorder.state_name(state));
         Break::Failed(StopReason::Integrator { error, node })
