@@ -17,31 +17,33 @@
 # make test-wheel   the same, installs it into an empty environment and runs the tests of the package
 # make book    installs mdBook if it is missing and builds docs/ as a book, target/book/index.html, equations as MathML
 # make check-wasm  builds the core, which knows no C, for WebAssembly; says SKIPPED where no Rust can
+# make live    builds the core of live pages (lptn run --report --live) for WebAssembly; build, dist, wheel and test put it
+#              into the program; says SKIPPED where no Rust can. LIVE=no leaves it out: it takes some minutes the first time
 # SUNDIALS=bundled make demo    builds SUNDIALS itself: needs gcc, cmake and libclang only
 
 SUNDIALS ?= system
 export SUNDIALS
 features = $(if $(filter bundled,$(SUNDIALS)),--features lptn-cli/bundled)
 
-.PHONY: demo test test-kills test-slurm test-hyperqueue build dist wheel test-wheel book setup setup-tests setup-bench bench bench-all bench-micro audit fuzz metamorphic mutants check-wasm clean
+.PHONY: demo test test-kills test-slurm test-hyperqueue build dist wheel test-wheel book setup setup-tests setup-bench bench bench-all bench-micro audit fuzz metamorphic mutants check-wasm live clean
 
 demo: build
 	./target/release/lptn run networks/gearbox.toml
 
 build: setup
-	@./.ci/build $(features)
+	@./.ci/with-live ./.ci/build $(features)
 
 dist:
-	@./.ci/dist
+	@./.ci/with-live ./.ci/dist
 
 wheel: setup
-	@./.ci/wheel
+	@./.ci/with-live ./.ci/wheel
 
 test-wheel: wheel
 	@./.ci/test-wheel
 
 test: setup-tests
-	cargo test --workspace --locked $(features)
+	@./.ci/with-live cargo test --workspace --locked $(features)
 
 # A sweep that is killed fifty times.
 test-kills: setup-tests
@@ -92,6 +94,9 @@ audit:
 
 check-wasm:
 	@./.ci/check-wasm
+
+live:
+	@./.ci/live
 
 setup:
 	@./.ci/setup

@@ -70,7 +70,7 @@ pub fn hashes(netlist: &Netlist) -> Vec<FileHash> {
 }
 
 /// Claim on the linearity of the network.
-fn linearity(input: &Input) -> Claim {
+pub fn linearity(input: &Input) -> Claim {
     let network = &input.netlist.network;
     let constant = network.first_varying_capacity().is_none();
     let linear = constant && input.assemble().is_ok_and(|system| system.is_proportional());

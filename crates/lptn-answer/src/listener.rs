@@ -1,6 +1,7 @@
 //! The listener of a question while its answer is computed.
 
 use std::fmt::Display;
+#[cfg(not(target_family = "wasm"))]
 use std::time::Instant;
 
 use lptn_netlist::{Diagnostic, Files};
@@ -70,8 +71,33 @@ impl Listener for Nobody {}
 
 /// Does a part of the work, and reports how long it took.
 pub fn timed<T>(listener: &dyn Listener, part: &'static str, work: impl FnOnce() -> T) -> T {
-    let begun = Instant::now();
+    let begun = Stopwatch::start();
     let done = work();
-    listener.took(part, begun.elapsed().as_secs_f64());
+    listener.took(part, begun.seconds());
     done
+}
+
+/// The time since a start. WebAssembly alone has no clock: there it is 0.
+#[derive(Clone, Copy, Debug)]
+pub struct Stopwatch {
+    #[cfg(not(target_family = "wasm"))]
+    begun: Instant,
+}
+
+impl Stopwatch {
+    /// Begins now.
+    pub fn start() -> Self {
+        Self {
+            #[cfg(not(target_family = "wasm"))]
+            begun: Instant::now(),
+        }
+    }
+
+    /// The time since then in s.
+    pub fn seconds(self) -> f64 {
+        #[cfg(target_family = "wasm")]
+        return 0.0;
+        #[cfg(not(target_family = "wasm"))]
+        self.begun.elapsed().as_secs_f64()
+    }
 }

@@ -9,6 +9,7 @@ use lptn_answer::answer::Answer;
 use lptn_netlist::{Diagnostic, Files};
 use lptn_plot::Figure;
 use lptn_report::{Canvas, Format, Look, Page, Report};
+use serde_json::Value;
 
 use crate::diagnostics::render;
 use crate::drawing::{self, Drawing};
@@ -108,6 +109,11 @@ impl Console {
         if let Some(reporting) = &self.reporting {
             reporting.add(report);
         }
+    }
+
+    /// Makes the report live, with these contents.
+    pub(crate) fn live_page(&self, contents: Value) {
+        self.reporting.iter().for_each(|reporting| reporting.live(contents.clone()));
     }
 
     /// True if a report was requested.

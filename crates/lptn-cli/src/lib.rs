@@ -18,6 +18,7 @@ mod files;
 mod input;
 mod interrupt;
 mod listening;
+mod live;
 mod operating_point;
 mod options;
 mod panic_net;

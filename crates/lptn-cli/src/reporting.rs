@@ -3,11 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use lptn_html::Live;
 use lptn_netlist::{Diagnostic, Files};
 use lptn_report::{Piece, Report, Section};
+use serde_json::Value;
 
 use crate::diagnostics::render;
 use crate::files;
+use crate::live::CORE;
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::{Failure, reason};
 
@@ -27,6 +30,8 @@ struct Known {
     report: Option<Report>,
     messages: Vec<String>,
     folder: Option<PathBuf>,
+    /// The contents of a live page.
+    live: Option<Value>,
 }
 
 impl Reporting {
@@ -53,6 +58,11 @@ impl Reporting {
             }
             none => *none = Some(report),
         }
+    }
+
+    /// The page is a live one, with these contents.
+    pub(crate) fn live(&self, contents: Value) {
+        self.known().live = Some(contents);
     }
 
     /// Keeps the diagnostics next to the result.
@@ -85,7 +95,7 @@ impl Reporting {
             Some(file) => file,
             None => beside_results(usual())?,
         };
-        write(&file, &report)?;
+        write(&file, &report, known.live.as_ref())?;
         Ok(Some(file.display().to_string()))
     }
 }
@@ -113,8 +123,11 @@ pub(crate) fn page_name(text: &str) -> Result<PathBuf, String> {
     Err(format!("a report is an HTML page: write {}", stem.display()))
 }
 
-fn write(file: &Path, report: &Report) -> Result<(), Failure> {
-    let page = lptn_html::write(report);
+fn write(file: &Path, report: &Report, live: Option<&Value>) -> Result<(), Failure> {
+    let page = match live.zip(CORE) {
+        Some((contents, core)) => lptn_html::write_live(report, &Live { contents, core }),
+        None => lptn_html::write(report),
+    };
     files::replace(file, page.as_bytes()).map_err(|failure| failure.with_help(ELSEWHERE))
 }
 

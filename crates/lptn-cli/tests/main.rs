@@ -48,6 +48,7 @@ mod interrupt_helper;
 mod json;
 mod library;
 mod limits;
+mod live;
 mod loggers;
 mod lumping;
 mod metamorphic;

@@ -6,21 +6,21 @@ use lptn_plot::svg::{self, escaped};
 use lptn_plot::{Figure, SERIES, printed};
 use serde_json::{Value, json};
 
+use crate::script;
+
 /// Width of a picture in CSS pixels.
 const WIDTH: f64 = 760.0;
 
 /// Writes a figure. Its curves can be zoomed if no axis has names, all lines go to the right, and
 /// no point has a tooltip, which only the picture shows.
 pub(crate) fn write(out: &mut String, figure: &Figure) {
-    let still = Figure { title: String::new(), note: String::new(), panels: figure.panels.clone() };
-    let picture = svg::write(&scene(&[still], WIDTH));
+    let picture = picture(figure);
     *out += "<figure class=\"chart\">\n";
     if !figure.title.is_empty() {
         *out += &format!("<h2>{}</h2>\n", escaped(&figure.title));
     }
-    if figure.panels.iter().all(is_zoomable) {
-        // only the end tag of a script could end it
-        let values = values(figure).to_string().replace('<', "\\u003c");
+    if let Some(values) = zoomable(figure) {
+        let values = script::json(&values);
         *out += &format!("<script type=\"application/json\">{values}</script>\n");
         *out += "<div class=\"live\"></div>\n";
     }
@@ -29,6 +29,17 @@ pub(crate) fn write(out: &mut String, figure: &Figure) {
         *out += &format!("<figcaption>{}</figcaption>\n", escaped(note));
     }
     *out += "</figure>\n";
+}
+
+/// The picture of its panels.
+pub(crate) fn picture(figure: &Figure) -> String {
+    let still = Figure { title: String::new(), note: String::new(), panels: figure.panels.clone() };
+    svg::write(&scene(&[still], WIDTH))
+}
+
+/// The values of a figure whose curves can be zoomed.
+pub(crate) fn zoomable(figure: &Figure) -> Option<Value> {
+    figure.panels.iter().all(is_zoomable).then(|| values(figure))
 }
 
 /// True if both axes have values, all lines go to the right, and there are no tooltips.

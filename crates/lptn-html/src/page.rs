@@ -4,6 +4,7 @@ use lptn_plot::Scene;
 use lptn_plot::svg::{self, escaped};
 use lptn_report::{Piece, Report, Section, Standing};
 
+use crate::live::{self, Live};
 use crate::{chart, policy, style, text};
 
 /// The charts, from uPlot by Leon Sorokin (MIT licence, `assets/uPlot.LICENSE`).
@@ -14,12 +15,20 @@ pub(crate) const SCRIPT: &str = include_str!("../assets/page.js");
 
 /// Writes a report as one HTML file.
 pub fn write(report: &Report) -> String {
-    let mut out = head(&report.title);
+    whole(report, None)
+}
+
+/// The file, with the additions of a live page.
+pub(crate) fn whole(report: &Report, live: Option<&Live<'_>>) -> String {
+    let mut out = head(&report.title, live.is_some());
     out += &format!("<header><h1>{}</h1>{BUTTON}</header>\n", escaped(&report.title));
     claims(&mut out, report);
+    out += live.map_or("", |_| live::PANEL);
     report.sections.iter().for_each(|part| section(&mut out, part));
-    out += &format!("<script>{UPLOT}</script>\n<script>{SCRIPT}</script>\n</body>\n</html>\n");
-    out
+    out += &live.map(live::data).unwrap_or_default();
+    out += &format!("<script>{UPLOT}</script>\n<script>{SCRIPT}</script>\n");
+    out += &live.map(|_| format!("<script>{}</script>\n", live::SCRIPT)).unwrap_or_default();
+    out + "</body>\n</html>\n"
 }
 
 /// Smallest scale at which a drawing is shown to fit the page.
@@ -27,8 +36,9 @@ const SMALLEST: f64 = 0.8;
 
 const BUTTON: &str = "<button id=\"theme\" type=\"button\" hidden>light or dark</button>";
 
-fn head(title: &str) -> String {
-    let (title, style, policy) = (escaped(title), style::sheet(), policy::content());
+fn head(title: &str, live: bool) -> String {
+    let (title, style, policy) = (escaped(title), style::sheet(), policy::content(live));
+    let style = if live { style + live::STYLE } else { style };
     format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n\
@@ -37,7 +47,7 @@ fn head(title: &str) -> String {
     )
 }
 
-fn claims(out: &mut String, report: &Report) {
+pub(crate) fn claims(out: &mut String, report: &Report) {
     if report.claims.is_empty() {
         return;
     }
@@ -67,7 +77,7 @@ fn section(out: &mut String, section: &Section) {
     *out += if section.folded { "</details>\n" } else { "</section>\n" };
 }
 
-fn piece(out: &mut String, piece: &Piece) {
+pub(crate) fn piece(out: &mut String, piece: &Piece) {
     match piece {
         Piece::Text(of) => text::write(out, of),
         Piece::Figure(figure) => chart::write(out, figure),

@@ -36,7 +36,7 @@ pub use json::{Json, JsonWriter};
 pub use layout::{Align, Column, TextTable, TextTableOf, labelled, stacked};
 pub use names::{differing, plain, shortened};
 pub use number::{Shortest, decimals, duration, fixed, prefix, significant};
-pub use of_page::report_of;
+pub use of_page::{report_of, with_results};
 pub use page::{Page, PageOf, Rows};
 pub use picture::{Canvas, Picture};
 pub use report::{Claim, Piece, Report, Section};

@@ -8,12 +8,18 @@ use crate::text::{Block, Text};
 
 /// A page as a report, with all that it adds for one.
 pub fn report_of(page: &dyn Page) -> Report {
-    let (title, text) = titled(&page.text());
-    let mut report = Report { title, ..page.more() };
-    report.claims.extend(page.no().map(|no| Claim::checked(false, no)));
+    let mut more = page.more();
+    more.claims.extend(page.no().map(|no| Claim::checked(false, no)));
+    with_results(&page.text(), page.figures(), more)
+}
+
+/// A report with the figures and the text of a page before its own sections.
+pub fn with_results(text: &Text, figures: Vec<Figure>, report: Report) -> Report {
+    let (title, text) = titled(text);
+    let mut report = Report { title, ..report };
     let text = report.results.take().unwrap_or(text);
     let mut own: Vec<Section> = std::mem::take(&mut report.answer);
-    for mut figure in page.figures().into_iter().filter(|figure| !figure.panels.is_empty()) {
+    for mut figure in figures.into_iter().filter(|figure| !figure.panels.is_empty()) {
         if figure.title == report.title {
             figure.title = String::new();
         }

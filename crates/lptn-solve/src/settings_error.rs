@@ -65,8 +65,8 @@ pub enum SettingsError {
         help "leave `integrator` out, or write `integrator = \"cvode\"`";
     /// The library was built without the integrator that this run needs.
     NoIntegrator = "run::settings",
-        "this build has no integrator for runs of networks that are not linear",
-        help "build lptn with its feature `cvodes`";
+        "this run needs CVODE, which this build does not have",
+        help "use the program `lptn`, or build the library with its feature `cvodes`";
     /// Sensitivities are requested that do not exist or cannot be computed.
     Sensitivity(refusal: NoTangents) = "run::settings",
         format!("no exact sensitivities: {refusal}"),

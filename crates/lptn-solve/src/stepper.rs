@@ -4,7 +4,8 @@
 //! Runs reach the integrator through `Box<dyn Integrator>`, and this file alone names both. A
 //! virtual call per step costs nothing. The core builds without C and for WebAssembly, and another
 //! integrator needs one function. The feature `cvodes` is on by default. Without it linear networks
-//! still run; others are refused with `SettingsError::NoIntegrator`.
+//! still run, and others by the Runge-Kutta method; those that it does not suit (pipes, several
+//! branches) are refused with `SettingsError::NoIntegrator`.
 
 use lptn_integrate::{Esdirk, Integrator, OdeSystem, OneStep, Options};
 use lptn_network::IntegratorChoice;
@@ -18,8 +19,9 @@ use crate::settings_error::SettingsError;
 pub(crate) type Stepper<'a> = Box<dyn Integrator<Heat<'a>> + 'a>;
 
 /// Number of parts of a run between breakpoints of inputs from which on BDF, which restarts in each
-/// of them, takes more steps than a Runge-Kutta method.
-const MANY_PARTS: usize = 20;
+/// of them, takes more steps than a Runge-Kutta method. Without CVODES that method takes all that
+/// it suits.
+const MANY_PARTS: usize = if cfg!(feature = "cvodes") { 20 } else { 0 };
 
 /// The inputs of a run.
 #[derive(Clone, Copy)]

@@ -3,7 +3,6 @@
 mod page;
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use lptn_analysis::{CycleError, RunAnalysis, Trusted};
 use lptn_assembly::ThermalSystem;
@@ -21,7 +20,7 @@ use crate::answer::Answer;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{self, Input};
-use crate::listener::{Listener, timed};
+use crate::listener::{Listener, Stopwatch, timed};
 use crate::lumping::Detail;
 use crate::refused::{explain, unanswered};
 use crate::run::{NoSteady, RunAnswer, RunTask, record};
@@ -136,9 +135,9 @@ impl CycleTask {
         listener: &dyn Listener,
     ) -> Result<CycleAnswer, Failure> {
         let Self(task) = self;
-        let begun = Instant::now();
+        let begun = Stopwatch::start();
         let found = timed(listener, "integrate", || find(&task, system, listener))?;
-        let wall_time = begun.elapsed().as_secs_f64();
+        let wall_time = begun.seconds();
         let solution = Trusted { result: found.solution.clone(), trust: found.trust };
         let run = RunAnswer {
             lumping: Lumping::of_run(&solution),

@@ -14,7 +14,7 @@ use lptn_study::{
 use serde_json::{Map, Value};
 
 use super::task::{NoSteady, RunTask};
-use super::uncertainty::{Study, elsewhere, files as uncertain};
+use super::uncertainty::{IS_BUILT, Study, elsewhere, files as uncertain};
 use super::{events, next, state, windows};
 use crate::answer::Answer;
 use crate::exit::Exit;
@@ -157,7 +157,7 @@ impl RunAnswer {
 
     /// The uncertainty of the results, if it was requested and is known.
     pub fn uncertainty(&self) -> Option<&Study> {
-        self.uncertainty.as_ref()?.as_ref().ok()
+        self.uncertainty.as_ref().filter(|_| IS_BUILT)?.as_ref().ok()
     }
 
     /// Results of the limits, in the order of the netlist.

@@ -2,7 +2,7 @@
 
 use lptn_analysis::RunAnalysis;
 use lptn_network::{NodeId, ParameterId};
-use lptn_report::{Claim, Report, duration, significant};
+use lptn_report::{Claim, Page as _, Report, duration, significant, with_results};
 use lptn_solve::{Gradient, Proceed, Snapshot};
 use lptn_study::Environment;
 
@@ -31,6 +31,14 @@ impl RunAnswer {
         let manifest = self.manifest(Vec::new(), Environment::default());
         report.sections.extend(serde_json::to_value(&manifest).ok().and_then(about::manifest));
         report
+    }
+
+    /// The parts of the report that a live page makes again: claims, curves, results.
+    pub fn live(&self) -> Report {
+        let mut claims = self.claims();
+        claims.push(about::linearity(&self.task.input));
+        let report = Report { claims, ..Report::default() };
+        with_results(&self.text(), self.figures(), report)
     }
 
     /// The network at the requested times, else at the end, and in steady state.

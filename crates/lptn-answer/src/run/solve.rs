@@ -1,7 +1,6 @@
 //! Requested runs.
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use lptn_analysis::{RunAnalysis, Trusted};
 use lptn_assembly::ThermalSystem;
@@ -14,9 +13,10 @@ use lptn_solve::{
 use super::answer::RunAnswer;
 use super::observed::{observed, record, shown};
 use super::task::{NoSteady, RunQuestion, RunTask};
+use super::uncertainty;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::listener::{Listener, timed};
+use crate::listener::{Listener, Stopwatch, timed};
 use crate::refused::run_failed;
 
 impl RunQuestion {
@@ -48,16 +48,16 @@ impl RunTask {
             true => timed(listener, "steady", || steady(system, self.settings.start)),
             false => Err(NoSteady::NotShown),
         };
-        let begun = Instant::now();
+        let begun = Stopwatch::start();
         let solved =
             timed(listener, "integrate", || self.solve(system, steady.as_ref().ok(), listener));
         let (solution, failure) = solved?;
         // bands of a run that broke off would be those of another one
         let whole = matches!(solution.end(), RunStatus::Reached);
-        let asked = self.uncertainty.as_ref().filter(|_| whole);
+        let asked = self.uncertainty.as_ref().filter(|_| uncertainty::IS_BUILT && whole);
         let uncertainty = asked
             .map(|asked| asked.study((&self.input, &self.settings, &self.selection), listener));
-        let wall_time = begun.elapsed().as_secs_f64();
+        let wall_time = begun.seconds();
         let (lumping, table) = timed(listener, "results", || {
             let table = Table::of_solution(&solution, &self.selection, &self.unit)
                 .with_bounds(&solution, &self.selection);

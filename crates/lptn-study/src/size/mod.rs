@@ -19,6 +19,10 @@ mod load_case;
 mod root;
 mod search;
 mod several;
+#[cfg(not(target_family = "wasm"))]
+mod smooth;
+#[cfg(target_family = "wasm")]
+#[path = "not_smooth.rs"]
 mod smooth;
 
 pub use aim::Aim;

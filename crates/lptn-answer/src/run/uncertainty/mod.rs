@@ -49,10 +49,17 @@ const SEED: u32 = 1;
 /// Width of a band, in tolerances of the run, below which it is that of the solver.
 const WIDTHS: f64 = 100.0;
 
+/// False in live pages: the core in them is without this code, which would be a part of its size.
+pub(super) const IS_BUILT: bool = !cfg!(target_family = "wasm");
+
 /// Refuses a question that cannot be answered, before anything is run.
 pub(super) fn check(asked: Option<&UncertaintyQuestion>, input: &Input) -> Result<(), Failure> {
     if asked.is_none() {
         return Ok(());
+    }
+    if !IS_BUILT {
+        let help = "use `lptn run --uncertainty`";
+        return Err(Failure::refused("run::settings", "a live page has no uncertainty", help));
     }
     let inputs = uncertain(&input.netlist.network, &input.netlist.overrides());
     inputs.map(drop).map_err(|error| input.failure(&error, None))

@@ -121,6 +121,7 @@ fn of_netlist(path: &Path, args: &PlotArgs, console: &Console) -> Result<(Source
         tolerance: None,
         output: None,
         at: Vec::new(),
+        live: false,
         no_files: true,
         uncertainty: run::uncertainty::UncertaintyArgs::default(),
         certify: false,

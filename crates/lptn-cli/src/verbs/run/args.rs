@@ -46,6 +46,9 @@ pub(crate) struct RunArgs {
     /// Draw the network in the report at this time; may be repeated
     #[arg(long, value_name = "TIME", requires = "report")]
     pub(crate) at: Vec<String>,
+    /// Make a report whose parameters can be changed in the browser, which solves again
+    #[arg(long, requires = "report", conflicts_with_all = ["uncertainty", "posterior"])]
+    pub(crate) live: bool,
     #[command(flatten)]
     pub(crate) uncertainty: UncertaintyArgs,
     /// True if the run is drawn

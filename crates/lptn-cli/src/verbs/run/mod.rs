@@ -22,8 +22,10 @@ use crate::files::names::{
 };
 use crate::files::{Folder, environment};
 use crate::input::Load as _;
+use crate::live;
 
 pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
+    live::check(args)?;
     let belief = Belief::of(args.uncertainty.posterior.as_deref());
     let mut input = console.phases.timed("read", || Input::load_from(&args.source, &belief))?;
     input.set_run_times(&args.times)?;
@@ -33,6 +35,7 @@ pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
         console.results_in(folder.path());
     }
     console.page(&answer, answer.task.format)?;
+    live::page(args, &answer, console);
     messages::beside(&answer, folder.as_ref(), console);
     Ok(messages::conclude(&answer, folder.is_some(), console))
 }

@@ -1,0 +1,2 @@
+//! Tests of the core of live pages.
+mod same;
