@@ -17,8 +17,9 @@
 # make test-wheel   the same, installs it into an empty environment and runs the tests of the package
 # make book    installs mdBook if it is missing and builds docs/ as a book, target/book/index.html, equations as MathML
 # make check-wasm  builds the core, which knows no C, for WebAssembly; says SKIPPED where no Rust can
-# make live    builds the core of live pages (lptn run --report --live) for WebAssembly; build, dist, wheel and test put it
-#              into the program; says SKIPPED where no Rust can. LIVE=no leaves it out: it takes some minutes the first time
+# make live    builds the core of live pages (lptn run --report --live) for WebAssembly, some minutes the first time; says
+#              SKIPPED where no Rust can. make demo and make test put it into the program if it is made, make dist and make
+#              wheel make it. LIVE=no leaves it out
 # SUNDIALS=bundled make demo    builds SUNDIALS itself: needs gcc, cmake and libclang only
 
 SUNDIALS ?= system
@@ -31,7 +32,7 @@ demo: build
 	./target/release/lptn run networks/gearbox.toml
 
 build: setup
-	@./.ci/with-live ./.ci/build $(features)
+	@LIVE=made ./.ci/with-live ./.ci/build $(features)
 
 dist:
 	@./.ci/with-live ./.ci/dist
@@ -43,7 +44,7 @@ test-wheel: wheel
 	@./.ci/test-wheel
 
 test: setup-tests
-	@./.ci/with-live cargo test --workspace --locked $(features)
+	@LIVE=made ./.ci/with-live cargo test --workspace --locked $(features)
 
 # A sweep that is killed fifty times.
 test-kills: setup-tests
