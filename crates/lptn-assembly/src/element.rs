@@ -84,7 +84,7 @@ impl Element {
         }
     }
 
-    /// Slot of the derivative of what one receiver gets by one variable.
+    /// Slot of the derivative of the heat that one receiver gets, by one variable.
     pub(crate) fn slot_at(&self, receiver: usize, variable: usize) -> u32 {
         self.slots[receiver * self.variables().len() + variable]
     }

@@ -144,7 +144,7 @@ impl ThermalSystem {
         Ok(())
     }
 
-    /// What each receiver of an element gets; empty if there are no bounds.
+    /// Heat that each receiver of an element gets; empty if there are no bounds.
     fn enclose_received(
         &self,
         element: &Element,

@@ -8,9 +8,9 @@ use lptn_netlist::{Diagnostic, Files};
 use lptn_report::{Piece, Report, Section};
 use serde_json::Value;
 
+use crate::core_of_live::CORE;
 use crate::diagnostics::render;
 use crate::files;
-use crate::live::CORE;
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::{Failure, reason};
 

@@ -15,10 +15,12 @@ mod base64;
 mod chart;
 mod live;
 mod page;
+mod parts;
 mod policy;
 mod script;
 mod style;
 mod text;
 
-pub use live::{Live, claims, figures, results, write_live};
-pub use page::write;
+pub use live::Live;
+pub use page::{write, write_live};
+pub use parts::{claims, figures, results};

@@ -2,23 +2,19 @@
 //!
 //! A live page is the page of a report with additions: a panel after the claims, the contents and
 //! the core as data, and a third script with its hash in the policy. The script shows parts that
-//! the core writes by [`claims`], [`figures`] and [`results`]; it computes nothing itself.
+//! the core writes ([`claims`](crate::claims), [`figures`](crate::figures),
+//! [`results`](crate::results)); it computes nothing itself.
 
-use lptn_plot::Figure;
-use lptn_report::{Piece, Report};
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use crate::base64::base64;
-use crate::{chart, page, script};
+use crate::script;
 
 /// Script of the panel.
 pub(crate) const SCRIPT: &str = include_str!("../assets/live.js");
 
 /// Style of the panel.
 pub(crate) const STYLE: &str = include_str!("../assets/live.css");
-
-/// Heading of the results.
-const RESULTS: &str = "Results";
 
 /// The additions to a page that make it live.
 #[derive(Clone, Copy, Debug)]
@@ -29,11 +25,6 @@ pub struct Live<'a> {
     pub contents: &'a Value,
     /// The core as WebAssembly, packed by gzip.
     pub core: &'a [u8],
-}
-
-/// Writes a report as one HTML file that solves its netlist again.
-pub fn write_live(report: &Report, live: &Live<'_>) -> String {
-    page::whole(report, Some(live))
 }
 
 /// The panel, which the script fills.
@@ -53,34 +44,4 @@ pub(crate) fn data(live: &Live<'_>) -> String {
         "<script type=\"application/json\" id=\"contents\">{contents}</script>\n\
          <script type=\"application/gzip\" id=\"core\">{core}</script>\n"
     )
-}
-
-/// The list of claims.
-pub fn claims(report: &Report) -> String {
-    let mut out = String::new();
-    page::claims(&mut out, report);
-    out
-}
-
-/// The figures in their order: the values of charts that can be zoomed, the picture, the notes.
-pub fn figures(report: &Report) -> Vec<Value> {
-    let pieces = report.sections.iter().flat_map(|section| &section.pieces);
-    let one = |figure: &Figure| {
-        json!({
-            "values": chart::zoomable(figure),
-            "picture": chart::picture(figure),
-            "notes": figure.note.lines().collect::<Vec<_>>(),
-        })
-    };
-    let of =
-        |piece: &Piece| if let Piece::Figure(figure) = piece { Some(one(figure)) } else { None };
-    pieces.filter_map(of).collect()
-}
-
-/// The texts and tables of the results.
-pub fn results(report: &Report) -> String {
-    let mut out = String::new();
-    let results = report.sections.iter().filter(|section| section.title == RESULTS);
-    results.flat_map(|section| &section.pieces).for_each(|piece| page::piece(&mut out, piece));
-    out
 }

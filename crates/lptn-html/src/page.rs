@@ -18,8 +18,13 @@ pub fn write(report: &Report) -> String {
     whole(report, None)
 }
 
+/// Writes a report as one HTML file that solves its netlist again.
+pub fn write_live(report: &Report, live: &Live<'_>) -> String {
+    whole(report, Some(live))
+}
+
 /// The file, with the additions of a live page.
-pub(crate) fn whole(report: &Report, live: Option<&Live<'_>>) -> String {
+fn whole(report: &Report, live: Option<&Live<'_>>) -> String {
     let mut out = head(&report.title, live.is_some());
     out += &format!("<header><h1>{}</h1>{BUTTON}</header>\n", escaped(&report.title));
     claims(&mut out, report);

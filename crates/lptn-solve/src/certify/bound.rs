@@ -16,7 +16,7 @@ use lptn_integrate::{FactorError, Pattern};
 
 use super::shifted::{Shifted, power_of_two_above};
 
-/// What is proposed to cover a heat, as a share of it.
+/// Heat that is proposed to cover another one, as a share of that.
 const GENEROUS: f64 = 1.0 + 1e-6;
 
 /// Corrections of a proposal before it counts as failed.

@@ -1,5 +1,5 @@
-//! The defect of a way: the heat that would have to enter a node besides what the network gives
-//! it, so that the way were its temperature.
+//! The defect of a way: the heat that would have to enter a node in addition to that of the
+//! network, so that the way were its temperature.
 
 use lptn_units::Taylor;
 
@@ -65,7 +65,8 @@ mod tests {
         let middle = Taylor::between(&chebyshev.map(|c| [c, c]));
         let nothing = Taylor::constant(0.0);
         assert!(largest(&middle, &(middle * nothing)) < 1e-300);
-        assert!((largest(&middle, &middle) - bound).abs() < 1e-12);
+        let whole = Taylor::between(&[[-99.0, 99.0]; 6]);
+        assert!((largest(&middle, &whole) - bound).abs() < 1e-12);
     }
 
     /// exp(s) on -1 to 1: at most e, and the rest of order 9 is e/9!.

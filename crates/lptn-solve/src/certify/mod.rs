@@ -9,14 +9,13 @@
 //!
 //! Nothing is taken from the integrator but numbers, and each bound is checked after it is found.
 //! Covered are networks without switches, pipes, heat contents over temperature, capacities that
-//! follow states, and balances of massless nodes; [`Uncertified`] names what is not. Rounding is
+//! follow states, and balances of massless nodes; [`Uncertified`] names the others. Rounding is
 //! not directed: margins of some rounding errors of each sum are added.
 
 mod bound;
 mod collocation;
 mod defect;
-#[cfg(test)]
-mod mutants;
+mod of_solution;
 mod shifted;
 mod steady;
 mod way;
@@ -384,3 +383,6 @@ fn is_covered(system: &ThermalSystem) -> Result<(), Uncertified> {
         None => Ok(()),
     }
 }
+
+#[cfg(test)]
+mod mutants;

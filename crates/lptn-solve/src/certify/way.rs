@@ -1,7 +1,7 @@
 //! The way of the unknowns over a step, as polynomials.
 //!
 //! A certificate bounds the distance of the exact solution from these polynomials. They pass
-//! through samples of the integrator's own solution; what lies between the samples is theirs, so a
+//! through samples of the integrator's own solution. Between the samples they are their own, so a
 //! certificate needs to know nothing about the integrator.
 
 use std::f64::consts::PI;

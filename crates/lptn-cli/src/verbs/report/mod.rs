@@ -20,7 +20,6 @@ use crate::args::Args;
 use crate::console::Console;
 use crate::files::names::{MANIFEST, RESULT};
 use crate::input::Load as _;
-use crate::live;
 use lptn_answer::about;
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
@@ -91,7 +90,7 @@ fn again(
         return Ok(Err("its command is not `lptn run`".into()));
     };
     let args = RunArgs { no_files: true, output: None, ..args };
-    live::check(&args)?;
+    run::live::check(&args)?;
     let mut input = Input::load(&args.source)?;
     input.set_run_times(&args.times)?;
     let (outcome, _) = run::answer(&args, input, console)?;
@@ -111,6 +110,6 @@ fn again(
     report.claims.insert(0, Claim::checked(same, text));
     console.warn(&outcome.task.input.netlist.files, &outcome.found());
     console.add_report(report);
-    live::page(&args, &outcome, console);
+    run::live::page(&args, &outcome, console);
     Ok(Ok(same))
 }

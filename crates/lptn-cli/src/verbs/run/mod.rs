@@ -1,6 +1,7 @@
 //! `lptn run`
 
 mod args;
+pub(crate) mod live;
 pub(crate) mod messages;
 pub(crate) mod uncertainty;
 
@@ -22,7 +23,6 @@ use crate::files::names::{
 };
 use crate::files::{Folder, environment};
 use crate::input::Load as _;
-use crate::live;
 
 pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
     live::check(args)?;

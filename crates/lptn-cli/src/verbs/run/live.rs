@@ -5,16 +5,9 @@ use lptn_answer::run::RunAnswer;
 use lptn_live::{Changes, contents, sliders};
 use serde_json::{Value, json};
 
+use super::RunArgs;
 use crate::console::Console;
-use crate::verbs::run::RunArgs;
-
-/// The core as WebAssembly, packed by gzip; `None` if the program was built without it.
-#[cfg(live_core)]
-pub(crate) const CORE: Option<&[u8]> = Some(include_bytes!(env!("LPTN_LIVE_CORE")));
-
-/// The core as WebAssembly, packed by gzip; `None` if the program was built without it.
-#[cfg(not(live_core))]
-pub(crate) const CORE: Option<&[u8]> = None;
+use crate::core_of_live::CORE;
 
 /// Refuses `--live` before anything is computed, if this program cannot write such pages.
 pub(crate) fn check(args: &RunArgs) -> Result<(), Failure> {
@@ -22,7 +15,7 @@ pub(crate) fn check(args: &RunArgs) -> Result<(), Failure> {
         return Err(Failure::refused(
             "report::no_core",
             "this lptn was built without the core of live pages",
-            "leave out --live, or build lptn where `make live` succeeds: `make build`",
+            "make the core by `make live`, then build lptn by `make build`; or leave out --live",
         ));
     }
     Ok(())
