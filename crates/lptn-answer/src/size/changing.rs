@@ -1,4 +1,4 @@
-//! Refusal to size a network whose inputs change with time, and what to write instead.
+//! Refusal to size a network whose inputs change with time, with a netlist to write instead.
 
 use lptn_netlist::{Diagnostic, SizeStudy};
 use lptn_network::{Changing, Course, Item, Network, SignalId, list_of};

@@ -31,7 +31,7 @@ fn sampled(heat: &mut Heat<'_>, time: f64, y: &[f64]) -> Result<Option<Vec<f64>>
 }
 
 impl Run<'_> {
-    /// Takes the samples at the start of a segment, and what switches with them; restarts the
+    /// Takes the samples at the start of a segment, and switches with them; restarts the
     /// integrator unless it is at its beginning.
     pub(super) fn sample(&mut self, segment: Segment, first: bool) -> Result<(), Break> {
         let state = self.integrator.state().to_vec();
