@@ -188,7 +188,7 @@ impl ThermalSystem {
     }
 
     /// Bounds on the Jacobian while each unknown stays in its range in `y`, in K; the numbers that
-    /// expressions read have those of `inputs`, which stands still.
+    /// expressions read have those of `inputs`, which do not change along a way.
     ///
     /// # Errors
     /// As [`ThermalSystem::enclose_flow`].

@@ -15,7 +15,7 @@ use crate::parts::signal::Course;
 use crate::slot;
 
 /// The numbers that expressions read over a stretch of time, as bounds. The variable of the way
-/// goes from -1 at its start to 1 at its end; it may also stand still.
+/// goes from -1 at its start to 1 at its end.
 #[derive(Clone, Debug)]
 pub struct InputBounds {
     slots: Vec<Bounded>,
