@@ -5,10 +5,10 @@ use lptn_network::{Network, list_of_names};
 use lptn_report::significant;
 use lptn_solve::{Solution, Unbounded};
 
-/// Doubts in the numbers of a run: its error and its balance.
-pub fn doubts(solution: &Solution) -> Vec<Diagnostic> {
+/// Doubts in the numbers of a run: its error, unless that is proven, and its balance.
+pub fn doubts(solution: &Solution, proven: bool) -> Vec<Diagnostic> {
     let warning = |code, text: Option<String>| text.map(|text| Diagnostic::warning(code, text));
-    let why = solution.why_unbounded();
+    let why = solution.why_unbounded().filter(|_| !proven);
     let bound = unbounded(solution.network(), why.as_ref());
     bound.into_iter().chain(warning("run::weak_ledger", weak_ledger(solution))).collect()
 }

@@ -148,7 +148,7 @@ pub fn at(
     if asked != shown {
         listener.note(&format!("at     {shown}, the row before {asked}"));
     }
-    Ok((found, bound::doubts(&solution)))
+    Ok((found, bound::doubts(&solution, false)))
 }
 
 /// Refuses a run that did not reach its stop or whose energy balance does not close.

@@ -30,6 +30,13 @@ pub(crate) fn cell(solution: &Solution, node: NodeId) -> String {
     solution.largest_bound(node).map_or_else(String::new, up)
 }
 
+/// The largest bound of all nodes as a sentence; `None` if there are none.
+pub(crate) fn claim(solution: &Solution) -> Option<String> {
+    let bounds = solution.recorded().iter().filter_map(|id| solution.largest_bound(*id));
+    let most = bounds.max_by(f64::total_cmp).filter(|_| is(solution))?;
+    Some(format!("proven: every temperature is within {} K of the exact solution", up(most)))
+}
+
 /// The doubt that a bound was asked for and not found.
 pub(crate) fn unproven(solution: &Solution) -> Option<Diagnostic> {
     Some(doubt(solution.certificate()?.as_ref().err()?))

@@ -30,6 +30,7 @@ const ANSWERS: [(&str, &str, &[&str]); 20] = [
             "run networks/melting.toml",
             "run networks/lap/lap.toml",
             "run networks/gearbox_parts.toml",
+            "run networks/gearbox.toml --certify",
         ],
     ),
     (
@@ -40,6 +41,7 @@ const ANSWERS: [(&str, &str, &[&str]); 20] = [
             "steady networks/candidates/bare.toml",
             "steady networks/natural_convection.toml",
             "steady networks/gearbox_parts.toml",
+            "steady networks/gearbox.toml --certify",
             "steady networks/drive_cycle.toml",
         ],
     ),

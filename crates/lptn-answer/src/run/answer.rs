@@ -208,7 +208,8 @@ impl RunAnswer {
     /// Errors that are not bounded; a table has them in its notes.
     pub fn bounds(&self) -> Vec<Diagnostic> {
         let unproven = proven::unproven(&self.solution);
-        unproven.into_iter().chain(bound::doubts(&self.solution)).collect()
+        let doubts = bound::doubts(&self.solution, proven::is(&self.solution));
+        unproven.into_iter().chain(doubts).collect()
     }
 
     /// The rows with their times in the requested unit.

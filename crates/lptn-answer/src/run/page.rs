@@ -270,7 +270,8 @@ fn notes(of: &RunAnswer, nodes: &[NodeSummary]) -> Vec<String> {
         )
     }));
     notes.extend(proven::notes(&of.solution));
-    notes.extend(not_bounded(of.solution.network(), of.solution.trust.unbounded.as_ref()));
+    let unbounded = of.solution.trust.unbounded.as_ref().filter(|_| !proven::is(&of.solution));
+    notes.extend(not_bounded(of.solution.network(), unbounded));
     notes.extend(weak_ledger(&of.solution));
     notes
 }

@@ -10,7 +10,7 @@ use super::answer::RunAnswer;
 use crate::about::{self, Known, Sensitivities};
 use crate::bound::{not_bounded, weak_ledger};
 use crate::fields::MOST_FRAMES;
-use crate::limits;
+use crate::{limits, proven};
 
 /// With more numbers than this, nodes times parameters, sensitivities take longer than the run.
 const MOST_TANGENTS: usize = 2000;
@@ -81,16 +81,16 @@ impl RunAnswer {
             ),
             None => "no heat was exchanged".into(),
         };
-        let bound = match not_bounded(
-            self.solution.network(),
-            self.solution.trust.unbounded.as_ref(),
-        ) {
-            None => Claim::open(format!(
+        let unbounded =
+            || not_bounded(self.solution.network(), self.solution.trust.unbounded.as_ref());
+        let bound = match (proven::claim(&self.solution), unbounded()) {
+            (Some(proven), _) => Claim::checked(true, proven),
+            (None, None) => Claim::open(format!(
                 "not verified: errors should be below {} K, ten times the tolerance; `lptn verify` \
                  compares with the exact solution",
                 significant(10.0 * self.solution.tolerance(), 2)
             )),
-            Some(why) => Claim::open(why),
+            (None, Some(why)) => Claim::open(why),
         };
         let mut claims = vec![Claim::checked(ledger.closes(), books), bound];
         claims.extend(weak_ledger(&self.solution).map(Claim::open));

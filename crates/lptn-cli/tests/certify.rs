@@ -1,0 +1,82 @@
+//! `--certify`: bounds in every form of an answer, and verdicts that they prove.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+use crate::common::{Folder, csv};
+
+/// 100 J/K that gains 1 W/K more than it loses: 20 degC + (exp(t / 100 s) - 1) K.
+const GROWS: &str = r#"format = 1
+[node]
+body = { C = "100 J/K", T0 = "20 degC" }
+[boundary]
+air = { T = "20 degC" }
+[resistor]
+skin = { from = "body", to = "air", G = "1 W/K" }
+[source]
+heat = { into = "body", P = "1 [W] + 2 [W/K] * (T - 20 [degC])" }
+[limit]
+hot = { of = "body.T", below = "167.5 degC" }
+near = { of = "body.T", below = "167.4133 degC" }
+[run]
+stop = "500 s"
+output = { every = "50 s" }
+"#;
+
+#[test]
+fn every_row_is_within_its_bound() {
+    let folder = Folder::with("grow.toml", GROWS);
+    let words = ["run", "grow.toml", "--certify", "--format", "csv", "--no-files"];
+    for tolerance in ["1e-3K", "1e-5K", "1e-7K"] {
+        let ran = folder.run(&[&words[..], &["--tolerance", tolerance]].concat());
+        let (headers, rows) = csv(&ran.out);
+        let column = |name: &str| headers.iter().position(|header| header == name).unwrap();
+        let (value, bound) = (column("body.T [degC]"), column("body.T.bound [K]"));
+        for row in rows {
+            let right = 20.0 + (row[0] / 100.0).exp_m1();
+            assert!((row[value] - right).abs() <= row[bound] + 1e-12, "{tolerance}: {row:?}");
+        }
+    }
+}
+
+/// The end, 167.413159 degC, is 1.4e-4 K below the second limit: an error of 1e-3 K decides
+/// nothing.
+#[test]
+fn verdicts_are_proven_or_not_decided() {
+    let folder = Folder::with("grow.toml", GROWS);
+    let run = |tolerance: &str| {
+        folder.run(&["run", "grow.toml", "--certify", "--no-files", "--tolerance", tolerance]).out
+    };
+    let words = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let (rough, fine) = (words(run("1e-3K")), words(run("1e-8K")));
+    assert!(rough.contains("proven verdicts: `hot`"), "{rough}");
+    assert!(rough.contains("the proven errors do not decide `near`"), "{rough}");
+    assert!(fine.contains("proven verdicts: `hot` and `near`"), "{fine}");
+    assert!(!rough.contains("error not bounded"), "{rough}");
+}
+
+#[test]
+fn objects_have_the_bounds_or_the_reason() {
+    let folder = Folder::with("grow.toml", GROWS);
+    let found = folder.json("run grow.toml --certify --no-files").json();
+    let error = found["proven"]["error"]["body"].as_f64().unwrap();
+    assert!(error > 0.0 && error < 1e-3, "{error}");
+    let plain = folder.json("run grow.toml --no-files").json();
+    assert!(plain.get("proven").is_none());
+    let thermostat = include_str!("../../../networks/thermostat.toml");
+    let folder = Folder::with("net.toml", thermostat);
+    let found = folder.json("run net.toml --certify --no-files").json();
+    assert!(found.get("proven").is_none());
+    let codes = found["warnings"].as_array().unwrap().iter().map(|w| w["code"].clone());
+    assert!(codes.into_iter().any(|code| code == "certify::switches"), "{found}");
+}
+
+/// 4 W over 2 W/K: 22 degC.
+#[test]
+fn a_steady_state_is_proven() {
+    let text = GROWS.replace("1 [W] + 2 [W/K] * (T - 20 [degC])", "4 W").replace("1 W/K", "2 W/K");
+    let folder = Folder::with("net.toml", &text);
+    let found = folder.json("steady net.toml --certify").json();
+    let error = found["proven"]["error"]["body"].as_f64().unwrap();
+    let value = found["values"]["body.T"]["value"].as_f64().unwrap();
+    assert!((value - 22.0).abs() <= error && error < 1e-9, "{value} {error}");
+}
