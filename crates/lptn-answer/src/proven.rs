@@ -60,9 +60,10 @@ pub(crate) fn of_steady(bounds: &[f64]) -> String {
 /// The bounds of a steady state, in K.
 pub(crate) fn steady_members(network: &Network, bounds: &[f64]) -> Value {
     let named = network.nodes().iter().zip(bounds);
-    let errors: Map<String, Value> =
-        named.map(|(node, bound)| (node.name.clone(), json!(bound))).collect();
-    json!({ "unit": "K", "error": errors })
+    let errors: Map<String, Value> = named
+        .map(|(node, bound)| (node.name.clone(), json!({ "value": bound, "unit": "K" })))
+        .collect();
+    Value::Object(errors)
 }
 
 /// Meaning of the bounds, and the verdicts that they prove.
@@ -123,8 +124,8 @@ pub(crate) fn members(solution: &Solution) -> Option<Value> {
     let network = solution.network();
     let bound = |id: &NodeId| {
         let bound = solution.largest_bound(*id)?;
-        Some((network.nodes()[id.index()].name.clone(), json!(bound)))
+        Some((network.nodes()[id.index()].name.clone(), json!({ "value": bound, "unit": "K" })))
     };
     let errors: Map<String, Value> = solution.recorded().iter().filter_map(bound).collect();
-    Some(json!({ "unit": "K", "error": errors }))
+    Some(Value::Object(errors))
 }

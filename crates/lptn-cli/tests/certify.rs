@@ -58,7 +58,7 @@ fn verdicts_are_proven_or_not_decided() {
 fn objects_have_the_bounds_or_the_reason() {
     let folder = Folder::with("grow.toml", GROWS);
     let found = folder.json("run grow.toml --certify --no-files").json();
-    let error = found["proven"]["error"]["body"].as_f64().unwrap();
+    let error = found["proven"]["body"]["value"].as_f64().unwrap();
     assert!(error > 0.0 && error < 1e-3, "{error}");
     let plain = folder.json("run grow.toml --no-files").json();
     assert!(plain.get("proven").is_none());
@@ -76,7 +76,7 @@ fn a_steady_state_is_proven() {
     let text = GROWS.replace("1 [W] + 2 [W/K] * (T - 20 [degC])", "4 W").replace("1 W/K", "2 W/K");
     let folder = Folder::with("net.toml", &text);
     let found = folder.json("steady net.toml --certify").json();
-    let error = found["proven"]["error"]["body"].as_f64().unwrap();
+    let error = found["proven"]["body"]["value"].as_f64().unwrap();
     let value = found["values"]["body.T"]["value"].as_f64().unwrap();
     assert!((value - 22.0).abs() <= error && error < 1e-9, "{value} {error}");
 }

@@ -149,7 +149,8 @@ const ANSWERS: [(&str, &str, &[&str]); 20] = [
 ];
 
 /// Objects whose keys are names of a netlist or codes, by the end of their path.
-const MAPS: [&str; 28] = [
+const MAPS: [&str; 29] = [
+    ".proven",
     ".values",
     ".limits",
     ".sources",
