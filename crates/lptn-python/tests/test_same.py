@@ -168,7 +168,7 @@ class Same(unittest.TestCase):
         """Options are those of the help, but for files, formats and values that are set."""
         left_out = {"set", "format", "no_files", "output", "report", "write", "quiet", "verbose"}
         left_out |= {"color", "plot", "help", "resume", "worst", "recover", "follow", "decimal"}
-        left_out |= {"expand", "dates", "start", "unit", "posterior", "at", "slurm", "version"}
+        left_out |= {"expand", "dates", "start", "unit", "posterior", "at", "slurm", "version", "live"}
         for name, *_, options in _lptn.questions():
             done = subprocess.run(
                 [PROGRAM, *name.split(), "--help"], capture_output=True, text=True, check=True
