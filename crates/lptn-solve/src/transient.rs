@@ -124,7 +124,9 @@ impl Transient {
             Readings::new(network, &segments, &rows, &windows).map_err(TransientError::Input)?;
         let recorder = Recorder::new(system, (rows, readings), self)?;
         if system.states().is_empty() {
-            return stateless::solve(recorder, &segments, &self.books(network)).map(Some);
+            let solution = stateless::solve(recorder, &segments, &self.books(network))?;
+            let certificate = self.certify.then(|| Err(Uncertified::without_state(system)));
+            return Ok(Some(Solution { certificate, ..solution }));
         }
         Run::new(recorder, (&segments, curved), (self, effort), from)?.through(&segments, observer)
     }

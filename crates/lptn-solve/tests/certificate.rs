@@ -29,13 +29,18 @@ fn certified(network: &Network, tolerance: f64, stop: f64) -> Solution {
 
 /// Checks the bounds against right temperatures with an error of their own in K, and collects bound
 /// over error, if the error can be told from that of the right temperatures.
-fn check(found: &Solution, right: &dyn Fn(usize, usize) -> f64, own: f64, ratios: &mut Vec<f64>) {
+fn check(
+    found: &Solution,
+    right: &dyn Fn(usize, usize) -> f64,
+    own: &dyn Fn(usize) -> f64,
+    ratios: &mut Vec<f64>,
+) {
     let reason = found.certificate().unwrap().as_ref().err();
     assert!(reason.is_none(), "{}", reason.unwrap());
     for (node, id) in found.network().node_ids().enumerate() {
         let (values, bounds) = (found.temperature(id).unwrap(), found.bounds(id).unwrap());
         assert_eq!(bounds.len(), values.len());
-        let most = found.largest_bound(id).unwrap();
+        let (most, own) = (found.largest_bound(id).unwrap(), own(node));
         for (row, (value, bound)) in values.iter().zip(&bounds).enumerate() {
             let error = (value - right(row, node)).abs();
             assert!(error <= bound + own, "node {node}, row {row}: {error:e} K, bound {bound:e}");
@@ -56,9 +61,10 @@ fn spread(ratios: &mut [f64]) -> (f64, f64) {
 fn check_exactly(network: &Network, tolerance: f64, stop: f64, ratios: &mut Vec<f64>) {
     let found = certified(network, tolerance, stop);
     let exact = ExactSolution::solve(network, 0.0, found.times()).unwrap();
-    // its massless nodes come from a dense matrix of conductances over five decades
-    let own = exact.own_error() + exact.quadrature_error().unwrap_or(0.0) + 5e-11;
-    check(&found, &|row, node| exact.row(row)[node], own, ratios);
+    let states = exact.own_error() + exact.quadrature_error().unwrap_or(0.0) + 1e-12;
+    // massless nodes come from a dense matrix of conductances over five decades
+    let own = |node: usize| states + if network.nodes()[node].massless { 5e-11 } else { 0.0 };
+    check(&found, &|row, node| exact.row(row)[node], &own, ratios);
 }
 
 #[test]
@@ -78,7 +84,7 @@ fn linear_networks_stay_within_their_bounds() {
         (0..count(20)).for_each(|seed| check_exactly(&random(seed), tolerance, 100.0, &mut ratios));
         let (median, most) = spread(&mut ratios);
         println!("linear, {tolerance:e} K: bound over error {median:.2}, 95 % below {most:.1}");
-        assert!(median < 5.0 && most < 50.0, "{median} {most}");
+        assert!(median < 5.0 && most < 30.0, "{median} {most}");
     }
 }
 
@@ -286,7 +292,7 @@ fn nonlinear_networks_stay_within_their_bounds() {
         let own = pairs.map(|(a, b)| (a - b).abs()).fold(1e-11, f64::max);
         for (tolerance, ratios) in &mut all {
             let found = certified(&network, *tolerance, STOP);
-            check(&found, &|row, node| fine[row][node], own, ratios);
+            check(&found, &|row, node| fine[row][node], &|_| own, ratios);
         }
     }
     for (tolerance, mut ratios) in all {
@@ -313,7 +319,8 @@ fn steady_states_stay_within_their_bounds() {
         for ((found, right), bound) in steady.temperatures.iter().zip(&right).zip(&bounds) {
             let error = (found - right).abs();
             assert!(error <= bound + 2e-12, "seed {seed}: {error:e} K, bound {bound:e}");
-            assert!(*bound < 1e-7, "seed {seed}: {bound:e}");
+            // wide only if the network hardly comes back to its state: 3.7e-5 K for seed 46
+            assert!(*bound < 1e-3, "seed {seed}: {bound:e}");
         }
         // a state beside it lies outside of its own bounds, or has none
         let mut beside = steady.state.clone();
@@ -339,7 +346,7 @@ fn errors_that_grow_are_within_their_bounds() {
         let found = certified(&network, tolerance, 500.0);
         let times = found.times().to_vec();
         let right = |row: usize, _| AIR + (times[row] / 100.0).exp_m1();
-        check(&found, &right, 1e-12, &mut Vec::new());
+        check(&found, &right, &|_| 1e-12, &mut Vec::new());
     }
 }
 

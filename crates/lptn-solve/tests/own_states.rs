@@ -10,27 +10,27 @@ use lptn_network::{IntegratorChoice, Network, Time};
 use lptn_solve::{Periodic, Selection, Solution, SteadyError, SteadyState, Table, Transient};
 use lptn_units::Unit;
 
-const ZERO: f64 = 273.15;
+pub const ZERO: f64 = 273.15;
 
-fn network(text: &str) -> Network {
+pub fn network(text: &str) -> Network {
     let netlist = lptn_netlist::parse("net.toml", text).unwrap_or_else(|e| panic!("{e}\n{text}"));
     netlist.network
 }
 
-fn run(network: &Network, times: &[f64], tolerance: f64) -> Solution {
+pub fn run(network: &Network, times: &[f64], tolerance: f64) -> Solution {
     let system = ThermalSystem::assemble(network).unwrap();
     let stop = Time(*times.last().unwrap());
     Transient::until(stop).at(times).tolerance(tolerance).solve(&system).unwrap()
 }
 
 /// One column in SI units, for states in the unit of their start.
-fn column(solution: &Solution, name: &str) -> Vec<f64> {
+pub fn column(solution: &Solution, name: &str) -> Vec<f64> {
     let selection = Selection::matching(solution.network(), &[name.to_owned()]).unwrap();
     let table = Table::of_solution(solution, &selection, &Unit::parse("K").unwrap());
     table.columns().last().unwrap().values.clone()
 }
 
-fn near(found: f64, right: f64, error: f64) {
+pub fn near(found: f64, right: f64, error: f64) {
     assert!((found - right).abs() <= error, "{found} is not {right} to {error}");
 }
 

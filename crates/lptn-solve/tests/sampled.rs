@@ -2,37 +2,14 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
 use crate::elements_helper::Random;
+use crate::own_states::{ZERO, column, near, network, run};
 
 use lptn_assembly::ThermalSystem;
-use lptn_network::{IntegratorChoice, Network, NoTangents, Time};
+use lptn_network::{IntegratorChoice, NoTangents, Time};
 use lptn_solve::{
     ExactSolution, Linearised, LinearisedError, Others, Periodic, PeriodicError, Proceed,
-    Selection, Solution, StateRates, SteadyState, Table, Transient,
+    StateRates, SteadyState, Transient,
 };
-use lptn_units::Unit;
-
-const ZERO: f64 = 273.15;
-
-fn network(text: &str) -> Network {
-    let netlist = lptn_netlist::parse("net.toml", text).unwrap_or_else(|e| panic!("{e}\n{text}"));
-    netlist.network
-}
-
-fn run(network: &Network, times: &[f64], tolerance: f64) -> Solution {
-    let system = ThermalSystem::assemble(network).unwrap();
-    let stop = Time(*times.last().unwrap());
-    Transient::until(stop).at(times).tolerance(tolerance).solve(&system).unwrap()
-}
-
-fn column(solution: &Solution, name: &str) -> Vec<f64> {
-    let selection = Selection::matching(solution.network(), &[name.to_owned()]).unwrap();
-    let table = Table::of_solution(solution, &selection, &Unit::parse("K").unwrap());
-    table.columns().last().unwrap().values.clone()
-}
-
-fn near(found: f64, right: f64, error: f64) {
-    assert!((found - right).abs() <= error, "{found} is not {right} to {error}");
-}
 
 /// A heater of 40 W under a digital controller.
 fn hot_end(keys: &str) -> String {

@@ -101,7 +101,7 @@ impl Bound {
         let time = power_of_two_above(length);
         self.factors.factorize(time, matrix)?;
         let from = self.now.clone();
-        let mut slope = self.excess(&[(matrix, &from)], defect);
+        let mut slope = self.excess((matrix, &from), defect);
         self.factors.solve(&mut slope)?;
         let missed = self.missed((&from, &slope), length, (matrix, defect));
         let added = self.cover(&missed, (matrix, time))?;
@@ -140,14 +140,11 @@ impl Bound {
     }
 
     /// `A w + r` in W.
-    fn excess(&self, products: &[(&[f64], &[f64])], defect: &[f64]) -> Vec<f64> {
-        let mut sum = defect.to_vec();
-        let mut heat = vec![0.0; sum.len()];
-        for (matrix, bounds) in products {
-            self.pattern.multiply(matrix, bounds, &mut heat);
-            sum.iter_mut().zip(&heat).for_each(|(sum, heat)| *sum += heat);
-        }
-        sum
+    fn excess(&self, (matrix, bounds): (&[f64], &[f64]), defect: &[f64]) -> Vec<f64> {
+        let mut heat = vec![0.0; defect.len()];
+        self.pattern.multiply(matrix, bounds, &mut heat);
+        heat.iter_mut().zip(defect).for_each(|(heat, defect)| *heat += defect);
+        heat
     }
 
     /// The heat in W by which a line misses `C w' >= A w + r` at most, at either end: between them
@@ -159,10 +156,10 @@ impl Bound {
         (matrix, defect): (&[f64], &[f64]),
     ) -> Vec<f64> {
         let to: Vec<f64> = from.iter().zip(slope).map(|(w, s)| w + length * s).collect();
-        let ends = [from, &to].map(|w| self.excess(&[(matrix, w)], defect));
+        let ends = [from, &to].map(|w| self.excess((matrix, w), defect));
         let sizes: Vec<f64> = from.iter().zip(&to).map(|(a, b)| a.abs().max(b.abs())).collect();
         let absolute: Vec<f64> = matrix.iter().map(|a| a.abs()).collect();
-        let rounding = self.excess(&[(&absolute, &sizes)], defect);
+        let rounding = self.excess((&absolute, &sizes), defect);
         let row = |i: usize| {
             let gets = self.mass[i] * slope[i];
             let missed = (ends[0][i] - gets).max(ends[1][i] - gets).max(0.0);

@@ -3,7 +3,7 @@
 //!
 //! The samples are corrected sweep by sweep, each by one implicit step from sample to sample
 //! (spectral deferred correction: A. Dutt, L. Greengard, V. Rokhlin, BIT 40 (2000) 241). How far
-//! this goes is no matter of correctness: the defect of the result is bounded afterwards.
+//! this goes does not affect the proof: the defect of the result is bounded afterwards.
 
 use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
 use lptn_integrate::{FactorError, Pattern};

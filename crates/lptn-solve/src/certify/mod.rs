@@ -77,6 +77,15 @@ pub enum Uncertified {
 }
 }
 
+impl Uncertified {
+    /// The reason for a network in which nothing stores heat.
+    pub(crate) fn without_state(system: &ThermalSystem) -> Self {
+        let first = system.network().nodes().first();
+        let name = first.map_or_else(String::new, |node| node.name.clone());
+        Self::Node { name, because: "stores no heat".to_owned() }
+    }
+}
+
 /// Proven bounds on the errors of the temperatures of a run.
 #[derive(Clone, Debug, Default)]
 pub struct Certificate {
@@ -89,6 +98,7 @@ pub struct Certificate {
 /// Follows a run and bounds its errors.
 pub(crate) struct Certifier<'a> {
     system: &'a ThermalSystem,
+    pattern: Pattern,
     scope: Evaluation,
     basis: [[f64; SAMPLES]; SAMPLES],
     /// The same for samples of the integrator's solution.
@@ -127,7 +137,7 @@ impl<'a> Certifier<'a> {
         let lost = |_| Uncertified::Lost { time: times[0] };
         let basis = way::basis();
         let collocation = Collocation::new(system, &pattern, &basis).map_err(lost)?;
-        let bound = Bound::new(pattern, system.mass()).map_err(lost)?;
+        let bound = Bound::new(pattern.clone(), system.mass()).map_err(lost)?;
         let constant = system.is_linear().then(|| {
             let mut slopes = vec![0.0; system.pattern().entries()];
             system.jacobian(&mut slopes);
@@ -135,6 +145,7 @@ impl<'a> Certifier<'a> {
         });
         Ok(Self {
             system,
+            pattern,
             scope: system.network().evaluation(),
             basis,
             integrated: way::basis(),
@@ -293,11 +304,10 @@ impl<'a> Certifier<'a> {
 
     /// Adds the rounding of the heats.
     fn round(&self, matrix: &[f64], ranges: &[[f64; 2]], defect: &mut [f64]) {
-        let pattern = Pattern::from_symbolic(self.system.pattern().symbolic());
         let absolute: Vec<f64> = matrix.iter().map(|slope| slope.abs()).collect();
         let sizes: Vec<f64> = ranges.iter().map(|[low, high]| low.abs().max(high.abs())).collect();
         let mut heats = vec![0.0; defect.len()];
-        pattern.multiply(&absolute, &sizes, &mut heats);
+        self.pattern.multiply(&absolute, &sizes, &mut heats);
         defect.iter_mut().zip(heats).for_each(|(defect, heat)| *defect += ROUNDING * heat);
     }
 
