@@ -30,6 +30,9 @@ const BROWSE: &str = include_str!("common/browse.mjs");
 /// Runs the core in node.
 const CORE: &str = include_str!("common/live.mjs");
 
+/// Unpacks random data in node.
+const UNPACK: &str = include_str!("common/unlzma.mjs");
+
 /// True if the program has the core.
 fn has_core() -> bool {
     let built = option_env!("LPTN_LIVE").is_some_and(|core| !core.is_empty());
@@ -120,10 +123,10 @@ fn only_live_pages_have_the_core() {
     for (from, to) in [
         ("<section class=\"tune\">", "</section>\n"),
         ("<script type=\"application/json\" id=\"contents\">", "</script>\n"),
-        ("<script type=\"application/gzip\" id=\"core\">", "</script>\n"),
+        ("<script type=\"application/x-lzma\" id=\"core\">", "</script>\n"),
         (".tune{", "display:none}\n}\n"),
         (" 'sha256-", "blob:"),
-        ("<script>(() => {\n\"use strict\";\n// The worker", "</script>\n"),
+        ("<script>// Unpacks", "</script>\n"),
     ] {
         let begin = match from {
             " 'sha256-" => page.match_indices(from).nth(2).unwrap().0,
@@ -137,6 +140,34 @@ fn only_live_pages_have_the_core() {
     let plain = plain.replace("plain.html", "live.html");
     let same = page.lines().zip(plain.lines()).filter(|(a, b)| a != b && !b.contains("arguments"));
     assert_eq!(same.collect::<Vec<_>>(), []);
+}
+
+/// The page is sent by mail: two megabytes.
+#[test]
+fn a_live_page_has_at_most_two_megabytes() {
+    let folder = gearbox();
+    if has_core() {
+        let bytes = folder.read("live.html").len();
+        assert!(bytes <= 2_000_000, "{bytes} bytes");
+    }
+}
+
+/// The oracle is xz. An end that is missing is an error.
+#[test]
+fn what_xz_packed_is_unpacked() {
+    let folder = Folder::with("unlzma.mjs", UNPACK);
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/../lptn-html/assets/unlzma.js");
+    let mut node = Command::new("node");
+    let Ok(output) = node.args(["unlzma.mjs", script]).current_dir(folder.path()).output() else {
+        eprintln!("skipped: there is no node");
+        return;
+    };
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap_or_default();
+    if found.is_null() && Command::new("xz").arg("--version").output().is_err() {
+        eprintln!("skipped: there is no xz");
+        return;
+    }
+    assert_eq!(found, json!({ "inputs": 40, "differ": 0, "silent": 0 }));
 }
 
 /// The page as it is, under its own policy: the browser has nothing to say.

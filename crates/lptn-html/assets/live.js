@@ -23,8 +23,7 @@ const work = () => {
   };
   const begin = async data => {
     const packed = Uint8Array.from(atob(data.core), letter => letter.charCodeAt(0));
-    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-    compiled = await WebAssembly.compile(await new Response(stream).arrayBuffer());
+    compiled = await WebAssembly.compile(unlzma(packed));
     contents = data.contents;
     return start();
   };
@@ -211,7 +210,7 @@ panel.querySelector("button").addEventListener("click", () => {
   ask();
 });
 
-const source = new Blob(["(" + work + ")()"], { type: "text/javascript" });
+const source = new Blob(["const unlzma = " + unlzma + ";\n(" + work + ")()"], { type: "text/javascript" });
 const worker = new Worker(URL.createObjectURL(source));
 worker.addEventListener("error", event => { state.textContent = "The solver did not start: " + event.message; });
 worker.addEventListener("message", ({ data: { answer, took, fault } }) => {

@@ -10,8 +10,9 @@ use serde_json::Value;
 use crate::base64::base64;
 use crate::script;
 
-/// Script of the panel.
-pub(crate) const SCRIPT: &str = include_str!("../assets/live.js");
+/// Script of the panel, after the function that unpacks the core.
+pub(crate) const SCRIPT: &str =
+    concat!(include_str!("../assets/unlzma.js"), include_str!("../assets/live.js"));
 
 /// Style of the panel.
 pub(crate) const STYLE: &str = include_str!("../assets/live.css");
@@ -23,7 +24,7 @@ pub struct Live<'a> {
     /// `parameters` (each with `name`, `text`, `value`, `unit`, `range` and `log`) and `contents`,
     /// with which the core is opened.
     pub contents: &'a Value,
-    /// The core as WebAssembly, packed by gzip.
+    /// The core as WebAssembly, packed by `xz --format=lzma`.
     pub core: &'a [u8],
 }
 
@@ -42,6 +43,6 @@ pub(crate) fn data(live: &Live<'_>) -> String {
     let (contents, core) = (script::json(live.contents), base64(live.core));
     format!(
         "<script type=\"application/json\" id=\"contents\">{contents}</script>\n\
-         <script type=\"application/gzip\" id=\"core\">{core}</script>\n"
+         <script type=\"application/x-lzma\" id=\"core\">{core}</script>\n"
     )
 }

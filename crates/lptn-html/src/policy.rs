@@ -8,7 +8,7 @@ const SCRIPTS: [&str; 2] = [
 ];
 
 /// Hash of the script of live pages.
-const LIVE: &str = "sha256-Xy8I8UCWJ2Mr0q3/VGycHHA3NZ+dyevbYlDgTBZlqlA=";
+const LIVE: &str = "sha256-H4DOv8wjMB6YHnFRERxMDnEUV70AfKFPV9Ea52Jhf5w=";
 
 /// The policy: nothing is loaded from anywhere. A live page may compile its core, in a worker whose
 /// script is in the page.

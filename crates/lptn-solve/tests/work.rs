@@ -5,7 +5,7 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::Time;
-use lptn_solve::{Solution, Transient};
+use lptn_solve::{Proceed, RunStatus, Solution, Transient};
 
 /// A run of 1000 s of bodies of a netlist to 1e-5 K.
 fn run(sections: &str) -> Solution {
@@ -165,4 +165,50 @@ fn the_integrator_begins_anew_behind_a_kink() {
         run(&heated(&text)).statistics().restarts
     };
     assert_eq!([restarts(45.0) > 0, restarts(90.0) > 0], [true, false]);
+}
+
+/// A shaft that stores next to nothing, in a hub that lets go: its kink is sharper than the times
+/// of floating-point numbers. Steps that did not move the time began over and over, for minutes.
+#[test]
+fn steps_that_do_not_move_the_time_end() {
+    let text = r#"format = 1
+[node]
+hub = { C = "176.28927879448378 J/K", T0 = "20 degC" }
+shaft = { C = "1e-8 J/K", T0 = "20 degC" }
+[boundary]
+air = { T = "20 degC" }
+[resistor]
+out = { from = "shaft", to = "air", R = "5.442078984803678 K/W" }
+skin = { from = "hub", to = "air", R = "1.6977874238819841 K/W" }
+[source]
+heat = { into = "hub", P = "43.41202431958908 W" }
+[press_fit.fit]
+from = "hub"
+to = "shaft"
+diameter = "0.05411174549308492 m"
+hub_diameter = "0.10822349098616985 m"
+length = "0.02705587274654246 m"
+interference = "0.00002517496749280824 m"
+h_gap = "330.02477987304604 W/(m^2 K)"
+alpha = ["2.3e-05 1/K", "1.15e-05 1/K"]
+E = ["70 GPa", "210 GPa"]
+poisson = [0.33, 0.3]
+k = ["150 W/(m K)", "46 W/(m K)"]
+slope = 0.1
+roughness = "1 um"
+hardness = "1.5 GPa"
+[run]
+stop = "1197.206882009998 s"
+"#;
+    let netlist = lptn_netlist::parse("work.toml", text).unwrap_or_else(|r| panic!("{r}"));
+    let system = ThermalSystem::assemble(&netlist.network).unwrap();
+    for stop in [490.0, 1197.206882009998] {
+        let run = Transient::until(Time(stop)).at(&[stop]).tolerance(1e-6);
+        let mut steps = 0;
+        let solution = run.solve_observed(&system, &mut |_| {
+            steps += 1;
+            if steps < 20_000 { Proceed::Continue } else { Proceed::Interrupt }
+        });
+        assert_eq!(solution.unwrap().end(), RunStatus::Reached, "{steps} steps to {stop} s");
+    }
 }

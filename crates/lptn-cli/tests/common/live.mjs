@@ -1,14 +1,18 @@
 // Runs the core that a live page contains as the page does, and prints its answers with their rows: one line a page.
 // With `--times N`, each is asked N times more and `took` is the least time of an answer in ms.
 import { readFileSync } from "node:fs";
-import { gunzipSync } from "node:zlib";
 
 const words = process.argv.slice(2), times = words[0] == "--times" ? Number(words.splice(0, 2)[1]) : 0;
 const script = (page, id) => page.split(`id="${id}">`)[1].split("</script>")[0];
+// the page's own function that unpacks its core
+const unpacked = (page, core) => {
+  const unlzma = new Function("return " + page.split("const unlzma = ")[1].split("\n};\n")[0] + "\n}")();
+  return unlzma(new Uint8Array(Buffer.from(core, "base64")));
+};
 let packed = "", compiled;
 for (const name of words) {
   const page = readFileSync(name, "utf8"), own = script(page, "core");
-  if (own != packed) [packed, compiled] = [own, new WebAssembly.Module(gunzipSync(Buffer.from(own, "base64")))];
+  if (own != packed) [packed, compiled] = [own, new WebAssembly.Module(unpacked(page, own))];
   const contents = JSON.stringify(JSON.parse(script(page, "contents")).contents);
   const imports = {};
   for (const { module, name } of WebAssembly.Module.imports(compiled)) {

@@ -212,7 +212,11 @@ impl Guard {
         }
         self.now = after;
         self.corners.accept();
-        (self.fresh, self.last, self.attempts) = (false, length, 0);
+        (self.fresh, self.last) = (false, length);
+        // steps that do not move the time are not a way through
+        if length > ROUNDING * step.to.abs() {
+            self.attempts = 0;
+        }
         self.longest *= GROWTH;
     }
 
