@@ -1,9 +1,8 @@
 //! The example of every page in `docs/elements`: what the page prints, and what the library
 //! computes, against closed forms that stand here.
 //!
-//! A page has one complete netlist
-//! (` ```toml`) and one table of results, whose rows begin with a quantity in quotes, `steady` or a
-//! time, and a value with its unit.
+//! Beside a page is its netlist, `NAME.toml`, which ends with a table of results in comments. A row
+//! begins with a quantity in quotes, `steady` or a time, and a value with its unit.
 
 #[path = "devices/mod.rs"]
 mod devices;
@@ -300,11 +299,12 @@ struct Row {
 
 /// The text of a page, its netlist and the rows of its results.
 fn page(name: &str) -> (String, String, Vec<Row>) {
-    let text = std::fs::read_to_string(folder().join(format!("{name}.md"))).expect("a page");
-    let mut netlists =
-        text.split("\n```toml\n").skip(1).filter_map(|rest| rest.split("\n```").next());
-    let netlist = netlists.next().unwrap_or_else(|| panic!("{name} has no netlist")).to_owned();
-    assert!(netlists.next().is_none(), "{name} has two complete netlists");
+    let read = |ending: &str| {
+        let path = folder().join(format!("{name}.{ending}"));
+        std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+    };
+    let (text, netlist) = (read("md"), read("toml"));
+    assert!(text.contains(&format!("]({name}.toml)")), "{name}.md has no link to its netlist");
     let row = |line: &str| {
         let cells: Vec<&str> = line.split('|').map(str::trim).collect();
         let (number, unit) = cells.get(3)?.split_once(' ')?;
@@ -318,7 +318,7 @@ fn page(name: &str) -> (String, String, Vec<Row>) {
             unit,
         })
     };
-    let rows = text.lines().filter_map(row).collect();
+    let rows = netlist.lines().filter_map(|line| row(line.strip_prefix("# ")?)).collect();
     (text, netlist, rows)
 }
 
@@ -459,5 +459,5 @@ fn the_codes_on_the_pages_are_codes_of_diagnostics() {
             );
         }
     }
-    assert!(count > 30, "only {count} codes were found");
+    assert!(count > 20, "only {count} codes were found");
 }

@@ -431,13 +431,13 @@ fn every_kind_has_its_page() {
         let new = || {
             let first = netlist((*kind, kind.laws().next().unwrap()), example);
             let (name, sentence) = (declared.section, declared.sentence);
-            format!("# {name}\n\n{sentence}\n\n## Keys\n\n## Example\n\n```toml\n{first}```\n")
+            format!("# {name}\n{sentence}\n\n## Keys\n\n## Example\n```toml\n{first}```\n")
         };
         let text = std::fs::read_to_string(page(*kind)).unwrap_or_else(|_| new());
-        let (before, rest) = text.split_once("## Keys\n\n").unwrap();
+        let (before, rest) = text.split_once("## Keys\n").unwrap();
         let prose = rest.lines().skip_while(|line| line.starts_with('|') || line.is_empty());
         let after: String = prose.map(|line| format!("{line}\n")).collect();
-        let wanted = format!("{before}## Keys\n\n{}\n{after}", tables(*kind));
+        let wanted = format!("{before}## Keys\n{}\n{after}", tables(*kind));
         if std::env::var_os("LPTN_BLESS").is_some() {
             std::fs::write(page(*kind), &wanted).unwrap();
         } else {

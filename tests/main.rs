@@ -60,3 +60,4 @@ mod validation;
 #[path = "support/validation/mod.rs"]
 mod validation_helper;
 mod wording;
+mod words;

@@ -1,42 +1,10 @@
 //! The words of messages: strings of the sources that have a space. Private words stay out, and words
 //! that are often wrong stay rare. `tests/wording.rs` reads the pages, `tests/comments.rs` comments.
-#![allow(clippy::print_stdout, reason = "the counts")]
-
 use crate::architecture::all_sources;
+use crate::words::{FOR_USERS, PRIVATE, are_absent, rare, stay_rare};
 
-/// Words and phrases that are private to their author, or old.
-const PRIVATE: [&str; 19] = [
-    "anew",
-    "beforehand",
-    "meanwhile",
-    "besides",
-    "mend",
-    "mended",
-    "shall",
-    "nobody",
-    "foretell",
-    "foretold",
-    "reckon",
-    "manieth",
-    "ledger",
-    "of its own",
-    "of their own",
-    "so many",
-    "so much",
-    "so long",
-    "so often",
-];
-
-/// Words that are right in some places, each with the most that there may be. Lower a number when
-/// you can.
-const RARE: [(&[&str], usize); 6] = [
-    (&["what"], 9),
-    (&["where"], 7),
-    (&["tell", "tells", "told", "telling"], 3),
-    (&["hold", "holds", "held"], 5),
-    (&["stand", "stands", "stood"], 1),
-    (&["beside", "behind"], 1),
-];
+/// The most of the words that are often wrong, as `words` lists them.
+const MOST: [usize; 6] = [9, 7, 3, 5, 1, 1];
 
 /// A string in lower case: its place, and its words between spaces.
 struct Message {
@@ -96,24 +64,21 @@ fn all() -> Vec<Message> {
 fn private_words_stay_out_of_the_messages() {
     let mut wrong = Vec::new();
     for message in all() {
-        for phrase in PRIVATE.iter().filter(|phrase| message.count(phrase) > 0) {
-            wrong.push(format!("{}: {phrase}", message.place));
+        for (phrase, better) in PRIVATE.iter().chain(&FOR_USERS) {
+            if message.count(phrase) > 0 {
+                wrong.push(format!("{}: {phrase}: {better}", message.place));
+            }
         }
     }
-    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+    are_absent(&wrong);
 }
 
 #[test]
 fn words_that_are_often_wrong_stay_rare_in_messages() {
     let all = all();
-    for (phrases, most) in RARE {
-        let places = all.iter().flat_map(|message| {
-            let count = phrases.iter().map(|phrase| message.count(phrase)).sum();
-            std::iter::repeat_n(message.place.as_str(), count)
-        });
-        let places: Vec<&str> = places.collect();
-        let said = format!("{phrases:?}: {} for {most}", places.len());
-        println!("{said}");
-        assert!(places.len() <= most, "{said}\n{}", places.join("\n"));
-    }
+    stay_rare(&rare(MOST, &[]), |phrase| {
+        all.iter()
+            .flat_map(|message| std::iter::repeat_n(message.place.as_str(), message.count(phrase)))
+            .collect()
+    });
 }

@@ -54,33 +54,37 @@ fn a_key_that_is_misspelt_is_refused_with_what_there_is() {
     }
 }
 
+/// The heading, sentence and keys of a section that has no page in `docs/elements`.
+fn with_keys(section: &SectionDeclaration) -> String {
+    let mut text = format!("\n## `[{}]`\n{}\n", section.name, section.sentence);
+    if !section.keys.is_empty() {
+        text += "\n| Key | Takes | Meaning | Default | Example |\n|---|---|---|---|---|\n";
+    }
+    for key in section.keys {
+        let default = if key.default.is_empty() { "" } else { &format!(" {}", key.default) };
+        text += &format!(
+            "| `{}` | {} | {} |{default} | `{}` |\n",
+            key.name,
+            key.takes(),
+            key.meaning,
+            key.example
+        );
+    }
+    text
+}
+
 fn page() -> String {
-    let mut text = "# Sections and keys\n\n\
+    let mut text = "# Sections and keys\n\
         Every section of a netlist with its keys, as they are declared. \
         [The reference](netlist.md) says\nhow they belong together. \
         `LPTN_BLESS=1 cargo test --test all sections::` writes this page.\n"
         .to_owned();
-    for section in &format().sections {
-        let name = section.name;
-        text += &format!("\n## `[{name}]`\n{}", section.sentence);
-        if is_path(section) {
-            text += &format!("\n[Keys and laws](elements/{name}.md).");
-        }
-        text += "\n";
-        if !is_path(section) && !section.keys.is_empty() {
-            text += "\n| Key | Takes | Meaning | Default | Example |\n|---|---|---|---|---|\n";
-            for key in section.keys {
-                let default =
-                    if key.default.is_empty() { "" } else { &format!(" {}", key.default) };
-                text += &format!(
-                    "| `{}` | {} | {} |{default} | `{}` |\n",
-                    key.name,
-                    key.takes(),
-                    key.meaning,
-                    key.example
-                );
-            }
-        }
+    let (paths, others): (Vec<_>, Vec<_>) = format().sections.iter().partition(|s| is_path(s));
+    text += &others.into_iter().map(with_keys).collect::<String>();
+    text += "\n## Paths and sources\n\n| Section: keys and laws | Describes |\n|---|---|\n";
+    for section in paths {
+        let (name, sentence) = (section.name, section.sentence.trim_end_matches('.'));
+        text += &format!("| [`[{name}]`](elements/{name}.md) | {sentence} |\n");
     }
     text
 }

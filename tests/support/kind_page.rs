@@ -109,6 +109,29 @@ fn at_faces(kind: Kind) -> Option<String> {
     }
 }
 
+/// The rows of the keys. Laws may have different meanings for one key: they share a row if unit, range
+/// and default are the same.
+fn key_rows(kind: Kind) -> Vec<String> {
+    let mut known: Vec<&str> = Vec::new();
+    let mut rows: Vec<(String, String, String)> = Vec::new();
+    for field in kind.laws().flat_map(|law| law.declaration().fields) {
+        if known.contains(&field.meaning) {
+            continue;
+        }
+        known.push(field.meaning);
+        let or = field.property.map_or(String::new(), |of| format!(" or `{}`", of.key()));
+        let key = format!("`{}`{or}", field.key);
+        let default =
+            field.default.map_or(String::new(), |value| format!(" {}", in_unit(field, value)));
+        let rest = format!("{} | {} |{default} |", unit_of(field), range(field.range));
+        match rows.iter_mut().find(|(of, _, same)| *of == key && *same == rest) {
+            Some((_, meanings, _)) => *meanings += &format!("; {}", field.meaning),
+            None => rows.push((key, field.meaning.to_owned(), rest)),
+        }
+    }
+    rows.iter().map(|(key, meanings, rest)| format!("| {key} | {meanings} | {rest}")).collect()
+}
+
 /// What a page says of keys and laws.
 pub(crate) fn tables(kind: Kind) -> String {
     let mut lines = vec![
@@ -135,23 +158,7 @@ pub(crate) fn tables(kind: Kind) -> String {
         }
         lines.push(format!("| `{selector}` | the law: {} | | | |", words.join(", ")));
     }
-    let mut known: Vec<&str> = Vec::new();
-    for field in kind.laws().flat_map(|law| law.declaration().fields) {
-        if known.contains(&field.meaning) {
-            continue;
-        }
-        known.push(field.meaning);
-        let or = field.property.map_or(String::new(), |of| format!(" or `{}`", of.key()));
-        let key = format!("`{}`{or}", field.key);
-        let default =
-            field.default.map_or(String::new(), |value| format!(" {}", in_unit(field, value)));
-        lines.push(format!(
-            "| {key} | {} | {} | {} |{default} |",
-            field.meaning,
-            unit_of(field),
-            range(field.range)
-        ));
-    }
+    lines.extend(key_rows(kind));
     lines.push(String::new());
     lines.push("| Given by | Law | Holds | Source |".to_owned());
     lines.push("|---|---|---|---|".to_owned());

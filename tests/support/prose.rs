@@ -6,10 +6,7 @@ use crate::pages;
 
 /// Numbers that are near a printed one and are not it: the end of the page's name, the number, and
 /// where it comes from.
-const KNOWN: [(&str, &str, &str); 7] = [
-    ("cookbook/gearbox.md", "71.1", "computed by hand, and then read in the record"),
-    ("cookbook/gearbox.md", "218.0", "the law at 7000 rpm, computed by hand"),
-    ("cookbook/gearbox.md", "0.3042", "t_RC over C, computed by hand"),
+const KNOWN: [(&str, &str, &str); 4] = [
     ("cookbook/housing.md", "125.0", "computed by hand, beside what the grid says"),
     ("netlist.md", "220.6", "an example of a number"),
     ("paper.md", "223.8", "of another fit, in the text of the paper"),

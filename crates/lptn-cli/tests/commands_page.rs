@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// An option that as many commands share is listed once.
-const SHARED: usize = 3;
+const SHARED: usize = 2;
 
 /// The heading of the table of shared options.
 const MANY: &str = "## Options of many commands";
@@ -23,6 +23,12 @@ struct Entry {
 impl Entry {
     fn row(&self) -> String {
         format!("| `{}` | {} |", self.name, self.effect.replace('|', "\\|"))
+    }
+
+    /// The netlist with a study, or the name of one: the page says once what they are.
+    fn is_study(&self) -> bool {
+        let netlist = self.effect.starts_with("A netlist with a [");
+        (netlist && !self.effect.contains("without")) || self.effect.starts_with("Which [")
     }
 
     /// `--output` of `-o, --output <DIR>`.
@@ -85,7 +91,7 @@ fn table(heading: &str, entries: &[Entry]) -> String {
 /// The part of a section that follows from its help.
 fn section(help: &Help, shared: &[Entry]) -> String {
     let (also, own): (Vec<Entry>, Vec<Entry>) =
-        help.entries.iter().cloned().partition(|entry| shared.contains(entry));
+        help.entries.iter().filter(|e| !e.is_study()).cloned().partition(|e| shared.contains(e));
     let usage: Vec<String> = help.usage.iter().map(|line| format!("`{line}`")).collect();
     let names: Vec<String> = also
         .iter()
@@ -93,8 +99,11 @@ fn section(help: &Help, shared: &[Entry]) -> String {
         .map(|e| format!("`{}`", e.long()))
         .collect();
     let also = if names.is_empty() { "" } else { &format!("; also {}", names.join(", ")) };
-    let usage = wrapped(&format!("{}{also}", usage.join(", ")));
-    format!("{usage}\n\n{}", table("Option", &own))
+    let usage = format!("{}{also}", usage.join(", "));
+    match own.as_slice() {
+        [one] => wrapped(&format!("{usage}. `{}`: {}.", one.name, one.effect)) + "\n\n",
+        _ => format!("{}\n\n{}", wrapped(&usage), table("Option", &own)),
+    }
 }
 
 /// A paragraph in lines of up to 100 characters.

@@ -84,6 +84,15 @@ def stored(found):
     return kept
 
 
+def joined(parts):
+    """The parts of a page: a block needs no empty line around it."""
+    text = parts[0]
+    for before, part in zip(parts, parts[1:]):
+        block = before.startswith("```") or part.startswith("```")
+        text += ("\n" if block else "\n\n") + part
+    return text
+
+
 def page(file, notebook):
     """The notebook as a page of the book, and its pictures by name."""
     parts, pictures = [], {}
@@ -101,7 +110,7 @@ def page(file, notebook):
             pictures[name] = picture
             parts.append(f"![The figure of the last cell]({name})")
     link = f"This page is the notebook [{file.name}]({file.name}).\nRun it from the root of the repository."
-    return "\n\n".join([*parts, link]) + "\n", pictures
+    return joined([*parts, link]) + "\n", pictures
 
 
 @unittest.skipIf(missing(), f"SKIPPED: not installed: {', '.join(missing())}")
