@@ -7,12 +7,25 @@ use lptn_data::{Diagnostic, FileId, Files, Span, arrange};
 
 use crate::foreign;
 use crate::format::NetlistFormat;
+use crate::plain_toml;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::syntax_error;
 use crate::toml_1_1;
 
 /// Reads the text of a file. The tree contains everything that could be read.
 pub(crate) fn read(
+    files: &Files,
+    file: FileId,
+    format: &NetlistFormat,
+) -> (RawNetlist, Vec<Diagnostic>) {
+    match plain_toml::read(files.text(file), file) {
+        Some(top) => (RawNetlist { top }, Vec::new()),
+        None => by_library(files, file, format),
+    }
+}
+
+/// The same by the library for TOML, which knows all of it and every mistake.
+pub(crate) fn by_library(
     files: &Files,
     file: FileId,
     format: &NetlistFormat,
