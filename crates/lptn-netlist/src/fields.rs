@@ -18,7 +18,8 @@ pub(crate) struct Owner {
 impl Owner {
     /// An element, such as resistor `internal`.
     pub(crate) fn element(kind: &str, name: &str) -> Self {
-        Self { words: format!("{kind} `{name}`"), section: &SectionDeclaration::NEW }
+        let words = [kind, " `", name, "`"].concat();
+        Self { words, section: &SectionDeclaration::NEW }
     }
 
     /// A section without elements, such as `[run]`.

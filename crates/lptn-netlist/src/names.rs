@@ -223,7 +223,8 @@ impl Names {
     /// True if a name, with the meaning that it has at its place, is a value by itself.
     pub(crate) fn is_value_at(&self, place: &Span, name: &str) -> bool {
         let index = || name == INDEX && self.structure.index_at(place).is_some();
-        self.is_value(&self.structure.resolve(place, name)) || index()
+        let meant = self.structure.meaning(place, name);
+        self.is_value(meant.as_deref().unwrap_or(name)) || index()
     }
 
     /// Notes a material or fluid that cannot be read, with its section.

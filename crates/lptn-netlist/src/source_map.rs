@@ -31,12 +31,18 @@ impl Sections {
     }
 }
 
+/// The place of a value.
+#[derive(Clone, Debug)]
+struct Written {
+    span: Span,
+    /// The byte at which the content of a string begins, if no escape changes it.
+    content: Option<usize>,
+}
+
 /// Leads from the parts of a network to the places they were read from.
 #[derive(Clone, Debug, Default)]
 pub struct SourceMap {
-    spans: HashMap<(Item, Field), Span>,
-    /// The byte at which the content of a string begins, if no escape changes it.
-    contents: HashMap<(Item, Field), usize>,
+    places: HashMap<(Item, Field), Written>,
     select: Vec<Span>,
     /// The sections of conductors and of sources.
     conductors: Sections,
@@ -67,8 +73,9 @@ impl SourceMap {
     /// or of a path to a face that of the whole. An imported element has the places of its cells;
     /// one without a name in the file has its row for a name.
     pub fn get(&self, item: Item, field: Field) -> Option<Span> {
-        let of_whole = || self.spans.get(&(self.whole(item)?, field));
-        let written = self.spans.get(&(item, field)).or_else(of_whole).cloned();
+        let of_whole = || self.places.get(&(self.whole(item)?, field));
+        let written = self.places.get(&(item, field)).or_else(of_whole);
+        let written = written.map(|written| written.span.clone());
         written.or_else(|| self.imports.iter().find_map(|places| places.get(item, field)))
     }
 
@@ -114,7 +121,8 @@ impl SourceMap {
             !matches!(item, Item::Parameter(_)) && *field != Field::Name
         };
         let carries = |span: &Span| files.at(span).contains('±') || files.at(span).contains("+-");
-        let found = self.spans.iter().filter(|(place, span)| no_parameter(place) && carries(span));
+        let all = self.places.iter().map(|(place, written)| (place, &written.span));
+        let found = all.filter(|(place, span)| no_parameter(place) && carries(span));
         let mut spans: Vec<Span> = found.map(|(_, span)| span.clone()).collect();
         spans.sort_by_key(Span::order);
         spans.dedup_by(|a, b| a.is_same_text(b));
@@ -129,7 +137,7 @@ impl SourceMap {
 
     /// Number of known places.
     pub fn len(&self) -> usize {
-        self.spans.len() + self.imports.iter().map(Places::len).sum::<usize>()
+        self.places.len() + self.imports.iter().map(Places::len).sum::<usize>()
     }
 
     /// True if no place is known.
@@ -151,7 +159,7 @@ impl SourceMap {
     }
 
     pub(crate) fn insert(&mut self, item: Item, field: Field, span: Span) {
-        self.spans.insert((item, field), span);
+        self.places.insert((item, field), Written { span, content: None });
     }
 
     /// The beginning of the file, for problems without a place.
@@ -210,10 +218,11 @@ impl SourceMap {
 
     /// Notes the place of a field's value.
     pub(crate) fn value(&mut self, item: Item, field: Field, value: &RawValue) {
-        self.insert(item, field, value.span.clone());
-        if let RawKind::String { start: Some(start), .. } = value.kind {
-            self.contents.insert((item, field), start);
-        }
+        let content = match value.kind {
+            RawKind::String { start, .. } => start,
+            _ => None,
+        };
+        self.places.insert((item, field), Written { span: value.span.clone(), content });
     }
 
     /// The place of some bytes of a field's string; the whole value if it is unknown.
@@ -229,8 +238,8 @@ impl SourceMap {
 
     /// The byte at which the content of a field's string begins, if no escape changes it.
     pub(crate) fn content(&self, item: Item, field: Field) -> Option<usize> {
-        let of_whole = || self.contents.get(&(self.whole(item)?, field));
-        self.contents.get(&(item, field)).or_else(of_whole).copied()
+        let content = |item: Item| self.places.get(&(item, field))?.content;
+        content(item).or_else(|| content(self.whole(item)?))
     }
 
     /// True if an item is in a CSV file of `[import]`.

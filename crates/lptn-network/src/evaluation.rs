@@ -7,6 +7,7 @@ use lptn_units::{Dual, EvalError, Program, Scalar, Traced};
 use crate::id::SignalId;
 use crate::input_error::InputProblem;
 use crate::parts::layout::{Followed, Layout};
+use crate::parts::signal::Spot;
 use crate::slot;
 use crate::value::Value;
 
@@ -33,6 +34,8 @@ pub struct Evaluation {
     failure: Option<(SignalId, InputProblem)>,
     /// The segment for which the points of signals were read.
     read_for: Option<u64>,
+    /// The place of each signal in that segment.
+    spots: Vec<Spot>,
 }
 
 impl Evaluation {
@@ -51,6 +54,7 @@ impl Evaluation {
             traced_stack: Vec::new(),
             failure: None,
             read_for: None,
+            spots: vec![Spot::default(); layout.signals().len()],
         };
         parameters.iter().enumerate().for_each(|(i, &value)| scope.set_parameter(i, value));
         scope.set_time(0.0, 0.0);
@@ -110,13 +114,16 @@ impl Evaluation {
             let ends = [(segment, now + 1), (time, now)];
             // an expression reads the time in both
             let unknown = usize::from(known && !signal.is_expression());
+            if !known {
+                self.spots[i] = signal.spot(segment);
+            }
             for &(at, slot) in &ends[unknown..] {
-                let value = signal.at(at, segment, &self.slots, &mut self.stack).unwrap_or_else(
-                    |problem| {
-                        self.failure.get_or_insert((id, problem));
-                        f64::NAN
-                    },
-                );
+                let read = (&self.slots[..], &mut self.stack);
+                let value = signal.at((at, segment), &mut self.spots[i], read.0, read.1);
+                let value = value.unwrap_or_else(|problem| {
+                    self.failure.get_or_insert((id, problem));
+                    f64::NAN
+                });
                 self.set(slot, value);
             }
         }

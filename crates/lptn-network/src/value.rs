@@ -72,11 +72,20 @@ impl Value {
 
     /// The slots an expression reads, sorted, each once; none for a constant.
     pub fn slots(&self) -> Vec<u32> {
-        let mut slots: Vec<u32> =
-            self.programs().into_iter().flat_map(|program| program.slots()).collect();
+        let mut slots = Vec::new();
+        self.each_slot(&mut |slot| slots.push(slot));
         slots.sort_unstable();
         slots.dedup();
         slots
+    }
+
+    /// Calls `read` with the slots of each expression in it, program by program.
+    pub(crate) fn each_slot(&self, read: &mut dyn FnMut(u32)) {
+        match self {
+            Self::Constant(_) => {}
+            Self::Expression(program) => program.slot_list().iter().for_each(|slot| read(*slot)),
+            Self::Product(factors) => factors.iter().for_each(|factor| factor.each_slot(read)),
+        }
     }
 }
 

@@ -84,6 +84,9 @@ impl<'a> Run<'a> {
     fn at(text: &'a str, number: &Range<usize>) -> Option<Self> {
         let sign = text.get(number.clone())?.find(|c: char| c.is_ascii_digit() || c == '.')?;
         let start = number.start + sign;
+        if is_plain(text.get(start..)?) {
+            return None;
+        }
         let mut end = start + digits(text.get(start..)?);
         let (mut groups, mut marks) = (vec![text.get(start..end)?], Vec::new());
         let mut first: Option<Range<usize>> = None;
@@ -153,7 +156,20 @@ pub(crate) fn power_of_ten(text: &str) -> Option<String> {
 }
 
 fn digits(text: &str) -> usize {
-    text.find(|c: char| !c.is_ascii_digit() && c != '_').unwrap_or(text.len())
+    text.bytes().position(|b| !b.is_ascii_digit() && b != b'_').unwrap_or(text.len())
+}
+
+/// True if no separator follows the digits that the text begins with, apart from one point.
+fn is_plain(text: &str) -> bool {
+    let fraction = |rest: &str| rest.strip_prefix('.').map_or(0, digits);
+    let whole = digits(text);
+    let rest = text.get(whole..).unwrap_or_default();
+    let end = match fraction(rest) {
+        0 => 0,
+        digits => 1 + digits,
+    };
+    let rest = rest.get(end..).unwrap_or_default();
+    rest.chars().next().is_none_or(|mark| !separates(mark, digits(&rest[mark.len_utf8()..])))
 }
 
 /// True if this can be between digits, with `after` digits after it. A space needs three: `5 1/s`

@@ -362,3 +362,20 @@ proptest! {
         prop_assert!((in_b - (value(a, b + step) - value(a, b - step)) / (2.0 * step)).abs() < 1e-7 * (1.0 + in_b.abs()));
     }
 }
+
+/// Straight lines by hand: `y = x^2` at whole numbers, held outside; the piece may be any number.
+#[test]
+fn a_piece_of_the_last_call_changes_no_value() {
+    let squares = linear(&[0.0, 1.0, 2.0, 3.0], &[0.0, 1.0, 4.0, 9.0], Outside::Hold);
+    let expected = [(-1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.5, 0.5, 1.0), (1.0, 1.0, 3.0)];
+    let beyond = [(2.25, 5.25, 5.0), (3.0, 9.0, 5.0), (4.0, 9.0, 0.0), (1.5, 2.5, 3.0)];
+    for stale in [0, 1, 2, 3, usize::MAX] {
+        for (x, value, slope) in expected.into_iter().chain(beyond) {
+            let mut piece = stale;
+            let found = squares.value_and_slope_near(x, &mut piece);
+            assert_eq!(found, Some((value, slope)), "{x} from piece {stale}");
+            assert_eq!(squares.value_and_slope_near(x, &mut piece), found, "{x} again");
+        }
+        assert_eq!(squares.value_and_slope_near(f64::NAN, &mut { stale }), None);
+    }
+}

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::LltError;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
@@ -12,6 +12,7 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, Par, Side, Spec};
 
 use super::columns::Columns;
+use super::row_by_row::{self, Rows};
 use super::{
     Factorization, LinearSolverKind, allocated, checked, column, expect_length, put, taken,
 };
@@ -37,13 +38,15 @@ pub(super) struct Analysis {
     source: Vec<usize>,
     symbolic: SymbolicCholesky<usize>,
     /// Present if columns are taken one by one.
-    columns: Option<Columns>,
+    single: Option<(Rows, Columns)>,
     full_length: usize,
     /// Memory for a factorisation, if no one uses it.
     spare: Mutex<Option<Workspace>>,
 }
 
 struct Workspace {
+    rows: row_by_row::Memory,
+    /// The next two are empty if columns are taken one by one.
     lower_values: Vec<f64>,
     memory: MemBuffer,
 }
@@ -68,7 +71,7 @@ impl SparseCholesky {
 
     pub(super) fn of(analysis: Arc<Analysis>) -> Result<Self, FactorError> {
         let symbolic = &analysis.symbolic;
-        let memory = match analysis.columns {
+        let memory = match analysis.single {
             Some(_) => None,
             None => Some(allocated(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq))?),
         };
@@ -88,8 +91,8 @@ impl Analysis {
         )
         .map_err(|_| FactorError::OutOfMemory)?;
         let (full_length, spare) = (pattern.len(), Mutex::new(None));
-        let columns = Columns::of(&symbolic);
-        Ok(Self { lower, source, symbolic, columns, full_length, spare })
+        let single = Rows::of(&symbolic, &lower, &source).zip(Columns::of(&symbolic));
+        Ok(Self { lower, source, symbolic, single, full_length, spare })
     }
 
     /// Numbers stored for the factors.
@@ -125,46 +128,58 @@ impl Analysis {
         if let Some(spare) = taken(&self.spare) {
             return Ok(spare);
         }
-        let needed = self.symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
-        let lower_values = vec![0.0; self.source.len()];
-        Ok(Workspace { lower_values, memory: allocated(needed)? })
+        let (length, needed) = match self.single {
+            Some(_) => (0, StackReq::EMPTY),
+            None => {
+                let spec = Spec::default();
+                let needed = self.symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, spec);
+                (self.source.len(), needed)
+            }
+        };
+        let (rows, lower_values) = (row_by_row::Memory::default(), vec![0.0; length]);
+        Ok(Workspace { rows, lower_values, memory: allocated(needed)? })
     }
 
     fn factorize(&self, values: &[f64], factors: &mut [f64]) -> Result<(), FactorError> {
         let mut work = self.workspace()?;
-        for (value, &slot) in work.lower_values.iter_mut().zip(&self.source) {
-            *value = values[slot];
-        }
-        let outcome = self.symbolic.factorize_numeric_llt(
-            factors,
-            SparseColMatRef::new(self.lower.as_ref(), &work.lower_values),
-            Side::Lower,
-            Default::default(),
-            Par::Seq,
-            MemStack::new(&mut work.memory),
-            Spec::default(),
-        );
-        let failure = outcome.err();
-        put(&self.spare, work);
-        if let (Some(columns), None) = (&self.columns, &failure) {
-            columns.arrange(factors);
-        }
-        match failure {
-            None => Ok(()),
-            Some(LltError::NonPositivePivot { index }) => {
-                Err(FactorError::NotPositiveDefinite { index: self.row_of_pivot(index) })
+        let done = match &self.single {
+            Some((rows, columns)) => rows
+                .factorize(&self.symbolic, values, factors, &mut work.rows)
+                .map(|()| columns.arrange(factors)),
+            None => {
+                for (value, &slot) in work.lower_values.iter_mut().zip(&self.source) {
+                    *value = values[slot];
+                }
+                let stack = MemStack::new(&mut work.memory);
+                self.factorize_blocks(&work.lower_values, factors, stack)
             }
+        };
+        put(&self.spare, work);
+        done.map_err(|position| FactorError::NotPositiveDefinite { index: self.row_at(position) })
+    }
+
+    /// Factors by faer; the error is the position of the pivot.
+    fn factorize_blocks(
+        &self,
+        lower_values: &[f64],
+        factors: &mut [f64],
+        stack: &mut MemStack,
+    ) -> Result<(), usize> {
+        let lower = SparseColMatRef::new(self.lower.as_ref(), lower_values);
+        let (plain, par, spec) = (Default::default(), Par::Seq, Spec::default());
+        let llt = &self.symbolic;
+        match llt.factorize_numeric_llt(factors, lower, Side::Lower, plain, par, stack, spec) {
+            Ok(_) => Ok(()),
+            // faer counts from 1 in its simplicial code and from 0 in its supernodal one
+            Err(LltError::NonPositivePivot { index }) if self.simplicial() => {
+                Err(index.saturating_sub(1))
+            }
+            Err(LltError::NonPositivePivot { index }) => Err(index),
         }
     }
 
-    /// The row, in the order given by the caller, of a pivot that faer reports in elimination
-    /// order.
-    fn row_of_pivot(&self, reported: usize) -> usize {
-        // faer counts from 1 in its simplicial code and from 0 in its supernodal one.
-        let position = match self.symbolic.raw() {
-            SymbolicCholeskyRaw::Simplicial(_) => reported.saturating_sub(1),
-            SymbolicCholeskyRaw::Supernodal(_) => reported,
-        };
+    /// The row, in the order given by the caller, of a position in the order of elimination.
+    fn row_at(&self, position: usize) -> usize {
         let order = self.symbolic.perm().map(|permutation| permutation.arrays().0);
         order.and_then(|order| order.get(position).copied()).unwrap_or(position)
     }
@@ -208,7 +223,7 @@ impl Factorization for SparseCholesky {
 
     fn solve_in_place(&mut self, b: &mut [f64]) -> Result<(), FactorError> {
         checked((self.size(), self.ready), b, |b| {
-            if let Some(columns) = &self.analysis.columns {
+            if let Some((_, columns)) = &self.analysis.single {
                 columns.solve(&self.factors, b, &mut self.work);
             }
             if let Some(memory) = &mut self.memory {

@@ -99,6 +99,14 @@ impl Columns {
     pub(super) fn arrange(&self, mut factors: &mut [f64]) {
         let (mut below, mut work) = (self.below.iter(), Vec::new());
         for run in &self.runs {
+            if let Kind::Short(length) = run.kind {
+                // single columns are in their order
+                let (own, rest) = factors.split_at_mut(run.numbers);
+                own.chunks_exact_mut(length + 1).for_each(|column| column[0] = column[0].recip());
+                below.by_ref().take(run.blocks).for_each(drop);
+                factors = rest;
+                continue;
+            }
             for &below in below.by_ref().take(run.blocks) {
                 let (width, below) = (run.kind.width(), below as usize);
                 let (own, rest) = factors.split_at_mut(numbers(width, below));

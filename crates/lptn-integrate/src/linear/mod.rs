@@ -22,6 +22,7 @@ mod krylov;
 mod lu;
 mod methods;
 mod multigrid;
+mod row_by_row;
 mod shape;
 mod sweeps;
 

@@ -7,6 +7,12 @@ use crate::fields::Fields;
 /// The forms that are begun: those with a given key that no other form takes. A given key in none
 /// of them begins the first form that takes it.
 pub(crate) fn begun(forms: &[&[&str]], given: impl Fn(&str) -> bool) -> Vec<usize> {
+    let mut touched = (0..forms.len()).filter(|&i| forms[i].iter().any(|key| given(key)));
+    match (touched.next(), touched.next()) {
+        (None, _) => return Vec::new(),
+        (Some(only), None) => return vec![only],
+        (Some(_), Some(_)) => {}
+    }
     let own = |key: &str| forms.iter().filter(|form| form.contains(&key)).count() == 1;
     let by_own = |&i: &usize| forms[i].iter().any(|key| own(key) && given(key));
     let mut begun: Vec<usize> = (0..forms.len()).filter(by_own).collect();

@@ -66,6 +66,10 @@ impl<'a> Elaboration<'a> {
 
     /// True if the capacity reads states or named values.
     fn follows_states(&self, fields: &Fields<'a>) -> bool {
+        let states = [ValueKind::State, ValueKind::Value].map(ValueKind::section);
+        if states.into_iter().all(|section| self.elements(section).is_empty()) {
+            return false;
+        }
         let ty = Type::of(Dimension::CAPACITY);
         let Some(raw) = fields.get("C") else { return false };
         let place = Place { owner: &fields.owner, key: "C", raw };

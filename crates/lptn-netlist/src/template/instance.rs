@@ -57,6 +57,9 @@ impl<'r, 'w> Maker<'r, 'w> {
 
     /// The uses of the file itself.
     pub(super) fn top(&mut self, uses: &[RawEntry]) {
+        if uses.is_empty() {
+            return;
+        }
         let taken = elements(self.raw, self.format);
         let clashes = uses.iter().filter_map(|entry| {
             let (kind, span) = taken.get(entry.key.as_str())?;

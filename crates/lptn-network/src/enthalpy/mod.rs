@@ -165,6 +165,7 @@ impl Enthalpy {
         let is_below = |panel: &Panel| panel.heat + panel.rise < heat;
         let inside = match self.panels.get(panel.wrapping_sub(1)..=*panel) {
             Some([before, here]) => is_below(before) && !is_below(here),
+            _ if *panel == 0 => heat >= self.panels[0].heat && !is_below(&self.panels[0]),
             _ => false,
         };
         if !inside {

@@ -44,19 +44,18 @@ impl Parts {
         if let Value::Constant(_) = value {
             return reads; // nearly all values of a large network
         }
-        for slot in value.slots() {
-            match self.layout.holds(slot) {
-                Holds::Time | Holds::FrozenTime | Holds::Signal(_) | Holds::FrozenSignal(_) => {
-                    reads.time = true;
-                }
-                Holds::Link => reads.link = true,
-                Holds::Own => reads.own = true,
-                Holds::Temperature(end) => reads.temperatures.push(end),
-                Holds::Control(_) | Holds::Switch(_) => reads.positions = true,
-                Holds::Parameter(_) | Holds::Heat(_) | Holds::Grid(_) => {}
+        value.each_slot(&mut |slot| match self.layout.holds(slot) {
+            Holds::Time | Holds::FrozenTime | Holds::Signal(_) | Holds::FrozenSignal(_) => {
+                reads.time = true;
             }
-        }
+            Holds::Link => reads.link = true,
+            Holds::Own => reads.own = true,
+            Holds::Temperature(end) => reads.temperatures.push(end),
+            Holds::Control(_) | Holds::Switch(_) => reads.positions = true,
+            Holds::Parameter(_) | Holds::Heat(_) | Holds::Grid(_) => {}
+        });
         reads.temperatures.sort_unstable();
+        reads.temperatures.dedup();
         reads
     }
 
@@ -72,11 +71,11 @@ impl Parts {
 
     /// Marks the signals that a value reads itself.
     pub(crate) fn mark_signals(&self, value: &Value, used: &mut [bool]) {
-        for slot in value.slots() {
+        value.each_slot(&mut |slot| {
             if let Holds::Signal(id) | Holds::FrozenSignal(id) = self.layout.holds(slot) {
                 used[id.index()] = true;
             }
-        }
+        });
     }
 
     /// True if the heat of a conductor is more than a constant times a difference or a stream.

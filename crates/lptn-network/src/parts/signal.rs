@@ -177,17 +177,31 @@ impl Course {
     }
 }
 
+/// The place of a signal that the readings of one segment share.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Spot {
+    /// The start of the repetition, less that of the first, in s.
+    offset: f64,
+    /// The piece of the last reading.
+    piece: usize,
+}
+
 impl Signal {
     /// True if it is an expression and has no points.
     pub(crate) fn is_expression(&self) -> bool {
         matches!(self.course, Course::Expression(_))
     }
 
+    /// The place of its readings in a segment.
+    pub(crate) fn spot(&self, segment: f64) -> Spot {
+        Spot { offset: self.course.offset(segment), piece: 0 }
+    }
+
     /// The value at `time`, on the piece on which `segment` lies.
     pub(crate) fn at(
         &self,
-        time: f64,
-        segment: f64,
+        (time, segment): (f64, f64),
+        spot: &mut Spot,
         slots: &[f64],
         stack: &mut Vec<f64>,
     ) -> Result<f64, InputProblem> {
@@ -195,8 +209,7 @@ impl Signal {
             return value.on(slots, stack).map_err(InputProblem::from);
         }
         let (first, last) = self.course.span();
-        let offset = self.course.offset(segment);
-        let (time, segment) = (time - offset, segment - offset);
+        let (time, segment) = (time - spot.offset, segment - spot.offset);
         // a run may end at the last point: rounding must not carry it past
         let margin = 1e-9 * (last - first).max(first.abs().max(last.abs()) * 1e-3);
         if time < first - margin {
@@ -207,7 +220,8 @@ impl Signal {
         }
         Ok(match &self.course {
             Course::Curve { points, .. } => {
-                points.value_and_slope(time.clamp(first, last)).map_or(f64::NAN, |(value, _)| value)
+                let found = points.value_and_slope_near(time.clamp(first, last), &mut spot.piece);
+                found.map_or(f64::NAN, |(value, _)| value)
             }
             Course::Steps { times, values, .. } => {
                 let after = times.partition_point(|&t| t <= segment);

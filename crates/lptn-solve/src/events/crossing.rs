@@ -143,12 +143,12 @@ impl Search {
     /// True if something that is due at none of three evaluations may be due between them. A
     /// parabola rises above the highest by no more than an eighth of their second difference.
     fn may_rise(&self, [before, middle, after]: [&Look; 3]) -> bool {
-        let one = |(i, room): (usize, &f64)| {
-            let [a, b, c] = [before, middle, after].map(|look| look.excess[i]);
-            let (highest, bend) = (a.max(b).max(c), (a - 2.0 * b + c).abs());
+        let one = |(((a, b), c), room): (((&f64, &f64), &f64), &f64)| {
+            let (highest, bend) = (a.max(*b).max(*c), (a - 2.0 * b + c).abs());
             highest <= 0.0 && highest + bend > 0.0 && bend > *room
         };
-        self.rooms.iter().enumerate().any(one)
+        let looks = before.excess.iter().zip(&middle.excess).zip(&after.excess);
+        looks.zip(&self.rooms).any(one)
     }
 
     /// The first moment between a time at which nothing is due and one at which something is.

@@ -112,6 +112,11 @@ impl Program {
         self.slots.clone()
     }
 
+    /// The same without a copy.
+    pub fn slot_list(&self) -> &[u32] {
+        &self.slots
+    }
+
     /// Most values on the stack at once; a stack with this capacity is never reallocated.
     pub fn stack_size(&self) -> usize {
         self.stack_size

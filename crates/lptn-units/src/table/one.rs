@@ -76,6 +76,19 @@ impl Table1 {
         }
     }
 
+    /// The same, faster if `x` is on the same piece as in the last call; `piece` is any number at
+    /// first.
+    pub fn value_and_slope_near(&self, x: f64, piece: &mut usize) -> Option<(f64, f64)> {
+        let is_inside = |ends: &[f64]| ends[0] <= x && x < ends[1];
+        if self.x.get(*piece..piece.saturating_add(2)).is_some_and(is_inside) {
+            return Some(self.within(*piece, x));
+        }
+        if let Place::In(found) = place(&self.x, x, self.outside)? {
+            *piece = found;
+        }
+        self.value_and_slope(x)
+    }
+
     /// The integral from one number to another, exact except for rounding; the negative of itself
     /// with the limits exchanged. Limits in one interval lose nothing to cancellation, however near
     /// they are.
