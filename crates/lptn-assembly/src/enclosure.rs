@@ -86,6 +86,46 @@ impl ThermalSystem {
         Ok(FlowBounds { flow, spread })
     }
 
+    /// For each unknown a sum of bounds in W, `rest` of each heat that is not linear in the unknowns
+    /// and of each input, while the unknowns go the way `y`, in K.
+    ///
+    /// # Errors
+    /// As [`ThermalSystem::enclose_flow`].
+    pub fn enclose_rest(
+        &self,
+        inputs: &mut InputBounds,
+        y: &[Taylor],
+        rest: &dyn Fn(&Taylor) -> f64,
+    ) -> Result<Vec<f64>, Item> {
+        let mut way = self.way(inputs, y)?;
+        let mut rests = vec![0.0; way.vertices.len()];
+        self.for_each_input(&mut way, |vertex, power, share| {
+            rests[vertex as usize] += share.abs() * rest(&power);
+        })?;
+        self.elimination().distribute(&mut rests);
+        for radiation in self.radiation.iter() {
+            let [from, to] = radiation.ends.map(|end| Bounded::from(way.vertices[end as usize]));
+            let rest = rest(&radiation.leaves(from, to).taylor());
+            radiation.ends.iter().for_each(|end| rests[*end as usize] += rest);
+        }
+        for element in self.elements.iter() {
+            let received = self.enclose_received(element, way.inputs, &way.vertices);
+            if received.is_empty() {
+                return Err(element.item());
+            }
+            for (to, bounds) in element.receivers.iter().zip(received) {
+                bounds.range().ok_or_else(|| element.item())?;
+                rests[*to as usize] += rest(&bounds);
+            }
+        }
+        let mut rests_of_unknowns: Vec<f64> =
+            self.unknowns.iter().map(|id| rests[id.index()]).collect();
+        for tie in self.ties.iter() {
+            rests_of_unknowns[tie.a as usize] += tie.g * rest(&way.vertices[tie.b as usize]);
+        }
+        Ok(rests_of_unknowns)
+    }
+
     fn way<'a>(&self, inputs: &'a mut InputBounds, y: &[Taylor]) -> Result<Way<'a>, Item> {
         let network = &self.network;
         let nodes = network.nodes().len();
@@ -102,20 +142,32 @@ impl ThermalSystem {
     /// The heat of the sources that read no temperature into each vertex, that of eliminated nodes
     /// passed on.
     fn enclose_inputs(&self, way: &mut Way<'_>) -> Result<Vec<Taylor>, Item> {
-        let network = &self.network;
         let mut heat = vec![Taylor::constant(0.0); way.vertices.len()];
+        self.for_each_input(way, |vertex, power, share| {
+            add(&mut heat, vertex, power * Taylor::constant(share));
+        })?;
+        self.elimination().distribute_bounds(&mut heat);
+        Ok(heat)
+    }
+
+    /// Calls with each vertex that a source enters which reads no temperature, with its heat in W
+    /// and the share of the vertex.
+    fn for_each_input(
+        &self,
+        way: &mut Way<'_>,
+        mut each: impl FnMut(u32, Taylor, f64),
+    ) -> Result<(), Item> {
+        let network = &self.network;
         for (id, source) in network.source_ids().zip(network.sources()) {
             if network.source_variables(id).is_empty() {
                 let power = network.enclose_source(id, way.inputs, &|_| Taylor::constant(0.0));
                 let power = power.filter(|p| p.range().is_some()).ok_or(Item::Source(id))?;
                 for (node, share) in &source.into {
-                    let vertex = self.vertex_of(End::Node(*node));
-                    add(&mut heat, vertex, power * Taylor::constant(*share));
+                    each(self.vertex_of(End::Node(*node)), power, *share);
                 }
             }
         }
-        self.elimination().distribute_bounds(&mut heat);
-        Ok(heat)
+        Ok(())
     }
 
     fn vertex_of(&self, end: End) -> u32 {

@@ -1,6 +1,6 @@
 //! Interface of a stiff integrator, which steps a system from one discontinuity to the next.
 
-use crate::{IntegrateError, LinearSolverKind, OdeSystem, Statistics};
+use crate::{IntegrateError, LinearSolverKind, OdeSystem, SeriesStep, Statistics};
 
 /// One internal step, in units of t.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -130,6 +130,12 @@ pub trait Integrator<S: OdeSystem> {
     /// [`IntegrateError::OutsideLastStep`] (after a start or a restart only the present time is
     /// inside), a wrong length.
     fn interpolate_sensitivities(&mut self, t: f64, s: &mut [f64]) -> Result<(), IntegrateError>;
+
+    /// The present step of the one-step method as a series; `None` before the first one, and for
+    /// other methods.
+    fn series(&self) -> Option<SeriesStep<'_>> {
+        None
+    }
 
     /// Counters since the integrator was made.
     fn statistics(&self) -> Statistics;

@@ -36,7 +36,7 @@ pub use diagonal::Esdirk;
 pub use error::{Callback, FactorError, IntegrateError};
 pub use integrator::{Integrator, Step};
 pub use linear::{LinearSolver, LinearSolverKind};
-pub use one_step::OneStep;
+pub use one_step::{OneStep, SeriesStep};
 pub use options::{Allowance, Options};
 pub use pattern::Pattern;
 pub use statistics::Statistics;

@@ -21,6 +21,7 @@ use crate::last::LastState;
 use crate::ledger::Ledger;
 use crate::limit::{self, LimitWatch, with_limits};
 use crate::looks::Looks;
+use crate::method::Method;
 use crate::newton_error::NewtonError;
 use crate::pipe::Shared;
 use crate::ranges::RangeWatch;
@@ -149,8 +150,13 @@ impl<'a> Recorder<'a> {
     }
 
     /// Bounds on the errors of the recorded nodes in the rows, for a run from this state.
-    pub(crate) fn certifier(&self, state: &[f64]) -> Result<Certifier<'a>, Uncertified> {
-        Certifier::new(self.system, (&self.recorded, &self.rows), (state, self.tolerance))
+    pub(crate) fn certifier(
+        &self,
+        method: Method,
+        state: &[f64],
+    ) -> Result<Certifier<'a>, Uncertified> {
+        let rows = (&self.recorded[..], &self.rows[..]);
+        Certifier::new(self.system, method, rows, (state, self.tolerance))
     }
 
     pub(crate) fn system(&self) -> &'a ThermalSystem {

@@ -5,11 +5,12 @@
 
 use super::levels::{Levels, step_of};
 use super::series::{self, FEWEST, MOST, POLE, Weights};
+use crate::linear::Factorization;
 use crate::{FactorError, kernels};
 
-/// Error allowed to the solver of a term, as a share of the tolerance. Each term inherits the errors
-/// of those before it, and their sum has to stay well below the tolerance: otherwise the terms
-/// stop shrinking and only short steps are accepted (40 times as many at 0.02).
+/// Error allowed to the solver of a term, as a share of the tolerance. Each term inherits the
+/// errors of those before it, and their sum has to stay well below the tolerance: otherwise the
+/// terms stop shrinking and only short steps are accepted (40 times as many at 0.02).
 const SOLVED_TO: f64 = 0.005;
 
 /// The terms that a step is to take when its size is chosen: longer ones would need even less
@@ -42,9 +43,12 @@ pub(super) struct Series {
     /// The start of the step.
     pub(super) start: Vec<f64>,
     pub(super) length: f64,
+    pub(super) level: i32,
     /// Terms that count; there is room for more.
     pub(super) count: usize,
-    terms: Vec<Vec<f64>>,
+    /// Terms that are known.
+    pub(super) known: usize,
+    pub(super) terms: Vec<Vec<f64>>,
     right: Vec<f64>,
     balance: Vec<f64>,
 }
@@ -73,7 +77,7 @@ impl Series {
         tolerance: f64,
     ) -> Result<Outcome, FactorError> {
         let h = step_of(level);
-        self.length = h;
+        (self.length, self.level) = (h, level);
         let factors = levels.factors(level)?;
         kernels::zip(body.mass, body.loss, &mut self.balance, |m, g| m + POLE * h * g);
         let whole = kernels::sum(&self.balance);
@@ -124,6 +128,25 @@ impl Series {
         if n == 2 {
             kernels::scale_and_add(1.0, &mut self.right, curving, drive.slope);
         }
+    }
+
+    /// Adds a term after those that are known, at least two.
+    pub(super) fn next(
+        &mut self,
+        mass: &[f64],
+        factors: &mut dyn Factorization,
+    ) -> Result<(), FactorError> {
+        let n = self.known + 1;
+        if self.terms.len() < n {
+            self.terms.push(vec![0.0; self.start.len()]);
+        }
+        let (before, now) = self.terms.split_at_mut(n - 1);
+        let (before, now) = (&before[n - 2], &mut now[0]);
+        kernels::zip(mass, before, now, |m, u| m * u);
+        factors.solve_in_place(now)?;
+        kernels::zip_in_place(now, before, |x, u| x - u);
+        self.known = n;
+        Ok(())
     }
 
     /// Guess for a solver that iterates: terms alternate and shrink by about the same ratio.

@@ -18,6 +18,7 @@
 //! smooth as those of CVODE.
 
 mod attempt;
+mod beyond;
 mod first;
 mod levels;
 mod series;
@@ -30,6 +31,8 @@ use crate::linear;
 use crate::{
     Callback, FactorError, IntegrateError, OdeSystem, Options, Statistics, checks, kernels,
 };
+pub use beyond::SeriesStep;
+
 use attempt::{Body, Drive, Outcome, Series};
 use first::Jump;
 use levels::{Levels, level_within, step_of};
@@ -204,7 +207,8 @@ impl<S: OdeSystem> OneStep<S> {
             return Ok(Ok(()));
         }
         let length = POLE * step_of(self.level);
-        // the Jacobian becomes the matrix and is read again: a copy would be the longest of all vectors
+        // the Jacobian becomes the matrix and is read again: a copy would be the longest of all
+        // vectors
         let mut values = std::mem::take(&mut self.jacobian);
         kernels::map_in_place(&mut values, |j| -length * j);
         let rows = self.system.mass().iter().zip(self.system.pattern().diagonal());

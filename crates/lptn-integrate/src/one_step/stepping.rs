@@ -1,6 +1,6 @@
 //! The one-step method as an integrator.
 
-use super::OneStep;
+use super::{OneStep, SeriesStep};
 use crate::clock::Clock;
 use crate::linear::LinearSolverKind;
 use crate::{IntegrateError, Integrator, OdeSystem, Statistics, Step, checks};
@@ -131,6 +131,10 @@ impl<S: OdeSystem> Integrator<S> for OneStep<S> {
             fill: self.levels.fill() as u64,
             ..self.counts
         }
+    }
+
+    fn series(&self) -> Option<SeriesStep<'_>> {
+        self.present_series()
     }
 
     fn linear_solver(&self) -> LinearSolverKind {

@@ -31,12 +31,14 @@ pub(super) struct Bound {
     /// Capacity of each unknown in J/K; 0 for one without.
     mass: Vec<f64>,
     factors: Shifted,
+    /// For each unknown the sum of the absolute values of the matrix in W/K.
+    sums: Vec<f64>,
     /// At the present time.
     now: Vec<f64>,
 }
 
 /// The bounds over one step.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Line {
     from: Vec<f64>,
     /// In K/s.
@@ -48,30 +50,75 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// The bound of an unknown in K at a time in s after the start of the step.
-    pub(super) fn at(&self, unknown: usize, after: f64) -> f64 {
-        let line = self.from[unknown] + after * self.slope[unknown];
-        (line + self.added[unknown] * (after / self.time).exp()).max(0.0)
+    /// The bounds of the unknowns in K at a time in s after the start of the step.
+    pub(super) fn at(&self, after: f64) -> impl Fn(usize) -> f64 + '_ {
+        let growth = (after / self.time).exp();
+        move |unknown| {
+            let line = self.from[unknown] + after * self.slope[unknown];
+            (line + self.added[unknown] * growth).max(0.0)
+        }
     }
 
     /// The most in K that a bound grows over the step.
     pub(super) fn adds(&self) -> f64 {
-        (0..self.from.len()).map(|i| self.most(i) - self.from[i]).fold(0.0, f64::max)
+        let most = self.most();
+        (0..self.from.len()).map(|i| most(i) - self.from[i]).fold(0.0, f64::max)
     }
 
-    /// A bound of an unknown over the whole step, in K.
-    pub(super) fn most(&self, unknown: usize) -> f64 {
-        let end = self.from[unknown] + self.length * self.slope[unknown];
-        let added = self.added[unknown] * (self.length / self.time).exp();
-        self.from[unknown].max(end) + added
+    /// Bounds of the unknowns over the whole step, in K.
+    pub(super) fn most(&self) -> impl Fn(usize) -> f64 + '_ {
+        let growth = (self.length / self.time).exp();
+        move |unknown| {
+            let end = self.from[unknown] + self.length * self.slope[unknown];
+            self.from[unknown].max(end) + self.added[unknown] * growth
+        }
     }
 }
 
 impl Bound {
-    pub(super) fn new(pattern: Pattern, mass: &[f64]) -> Result<Self, FactorError> {
-        let factors = Shifted::new(&pattern, mass)?;
-        let now = vec![0.0; mass.len()];
-        Ok(Self { pattern, mass: mass.to_vec(), factors, now })
+    pub(super) fn new(pattern: &Pattern, mass: &[f64]) -> Result<Self, FactorError> {
+        Ok(Self::with(Shifted::new(pattern, mass)?, pattern, mass))
+    }
+
+    /// For one symmetric matrix, in W/K.
+    pub(super) fn constant(
+        pattern: &Pattern,
+        mass: &[f64],
+        matrix: &[f64],
+    ) -> Result<Self, FactorError> {
+        let mut bound = Self::with(Shifted::symmetric(pattern, mass)?, pattern, mass);
+        bound.set_matrix(matrix);
+        Ok(bound)
+    }
+
+    fn with(factors: Shifted, pattern: &Pattern, mass: &[f64]) -> Self {
+        let zeros = vec![0.0; mass.len()];
+        let (pattern, mass) = (pattern.clone(), mass.to_vec());
+        Self { pattern, mass, factors, sums: zeros.clone(), now: zeros }
+    }
+
+    /// The matrix of the next steps in W/K: the diagonal from above, the others in absolute value.
+    pub(super) fn set_matrix(&mut self, matrix: &[f64]) {
+        self.factors.set(matrix);
+        self.sums.fill(0.0);
+        for (slope, row) in matrix.iter().zip(self.pattern.row_indices()) {
+            self.sums[*row] += slope.abs();
+        }
+    }
+
+    /// For each unknown the sum of the absolute values of the matrix in W/K.
+    pub(super) fn sums(&self) -> &[f64] {
+        &self.sums
+    }
+
+    /// Adds a share of the absolute values of the matrix times sizes of the unknowns in K.
+    pub(super) fn add_sizes(&self, share: f64, sizes: impl Iterator<Item = f64>, heat: &mut [f64]) {
+        let (pattern, matrix) = (&self.pattern, self.factors.matrix());
+        for (column, size) in sizes.enumerate() {
+            for slot in pattern.column(column) {
+                heat[pattern.row_indices()[slot]] += share * size * matrix[slot].abs();
+            }
+        }
     }
 
     /// The bounds at the present time in K.
@@ -91,43 +138,44 @@ impl Bound {
 
     /// Goes to the end of a step.
     pub(super) fn go(&mut self, line: &Line) {
-        let at_end = |unknown| line.at(unknown, line.length);
-        self.now = (0..self.now.len()).map(at_end).collect();
+        let at_end = line.at(line.length);
+        self.now.iter_mut().enumerate().for_each(|(i, bound)| *bound = at_end(i));
     }
 
-    /// The bounds over a step of this length in s for a matrix in W/K and a bound on the defect in
-    /// W; `None` if none was found.
-    pub(super) fn over(&mut self, length: f64, matrix: &[f64], defect: &[f64]) -> Option<Line> {
+    /// The bounds over a step of this length in s for a bound on the defect in W; `None` if none
+    /// was found.
+    pub(super) fn over(&mut self, length: f64, defect: &[f64]) -> Option<Line> {
         let time = power_of_two_above(length);
-        self.factors.factorize(time, matrix)?;
+        self.factors.factorize(time)?;
         let from = self.now.clone();
-        let mut slope = self.excess((matrix, &from), defect);
+        let mut heat = vec![0.0; from.len()];
+        self.factors.multiply(&from, &mut heat);
+        let mut slope: Vec<f64> = heat.iter().zip(defect).map(|(a, r)| a + r).collect();
         self.factors.solve(&mut slope)?;
-        let missed = self.missed((&from, &slope), length, (matrix, defect));
-        let added = self.cover(&missed, (matrix, time))?;
+        let missed = self.missed((&from, &slope), length, (heat, defect));
+        let added = self.cover(missed, time)?;
         Some(Line { from, slope, added, time, length })
     }
 
     /// A `v` with `C/H v - A v >= m` and `v >= 0`, rounding included; `None` if none was found. The
     /// factors only propose: the inequality is checked, and its violations are corrected.
-    fn cover(&mut self, missed: &[f64], (matrix, time): (&[f64], f64)) -> Option<Vec<f64>> {
-        let absolute: Vec<f64> = matrix.iter().map(|a| a.abs()).collect();
+    fn cover(&mut self, missed: Vec<f64>, time: f64) -> Option<Vec<f64>> {
         let mut added = vec![0.0; missed.len()];
-        let mut wanting = missed.to_vec();
+        let mut heat = added.clone();
+        let mut wanting = missed.clone();
         for _ in 0..CORRECTIONS {
             wanting.iter_mut().for_each(|w| *w *= time * GENEROUS);
             self.factors.solve(&mut wanting)?;
             added.iter_mut().zip(&wanting).for_each(|(v, more)| *v = (*v + more).max(0.0));
-            let heats = [matrix, &absolute].map(|matrix| {
-                let mut heat = vec![0.0; missed.len()];
-                self.pattern.multiply(matrix, &added, &mut heat);
-                heat
-            });
+            self.factors.multiply(&added, &mut heat);
             let mut covered = true;
             for (i, wanting) in wanting.iter_mut().enumerate() {
                 let stored = self.mass[i] / time * added[i];
-                let rounding = ROUNDING * (stored + heats[1][i]);
-                let short = missed[i] + rounding - (stored - heats[0][i]);
+                let diagonal = self.factors.matrix()[self.pattern.diagonal_slot(i)];
+                // the other entries are not negative
+                let absolute = heat[i] - 2.0 * diagonal.min(0.0) * added[i];
+                let rounding = ROUNDING * (stored + absolute);
+                let short = missed[i] + rounding - (stored - heat[i]);
                 covered &= short <= 0.0;
                 // less would be lost in the rounding
                 *wanting = short.max(0.0) + 4.0 * rounding;
@@ -139,32 +187,24 @@ impl Bound {
         None
     }
 
-    /// `A w + r` in W.
-    fn excess(&self, (matrix, bounds): (&[f64], &[f64]), defect: &[f64]) -> Vec<f64> {
-        let mut heat = vec![0.0; defect.len()];
-        self.pattern.multiply(matrix, bounds, &mut heat);
-        heat.iter_mut().zip(defect).for_each(|(heat, defect)| *heat += defect);
-        heat
-    }
-
     /// The heat in W by which a line misses `C w' >= A w + r` at most, at either end: between them
-    /// it is linear. Rounding is added.
+    /// it is linear. Rounding is added. `heat` is `A w` at the start.
     fn missed(
         &self,
         (from, slope): (&[f64], &[f64]),
         length: f64,
-        (matrix, defect): (&[f64], &[f64]),
+        (heat, defect): (Vec<f64>, &[f64]),
     ) -> Vec<f64> {
-        let to: Vec<f64> = from.iter().zip(slope).map(|(w, s)| w + length * s).collect();
-        let ends = [from, &to].map(|w| self.excess((matrix, w), defect));
-        let sizes: Vec<f64> = from.iter().zip(&to).map(|(a, b)| a.abs().max(b.abs())).collect();
-        let absolute: Vec<f64> = matrix.iter().map(|a| a.abs()).collect();
-        let rounding = self.excess((&absolute, &sizes), defect);
-        let row = |i: usize| {
+        let mut rising = vec![0.0; from.len()];
+        self.factors.multiply(slope, &mut rising);
+        let pairs = from.iter().zip(slope);
+        let size = pairs.map(|(w, s)| w.abs() + length * s.abs()).fold(0.0, f64::max);
+        let row = |(i, heat): (usize, f64)| {
             let gets = self.mass[i] * slope[i];
-            let missed = (ends[0][i] - gets).max(ends[1][i] - gets).max(0.0);
-            missed + ROUNDING * (rounding[i] + gets.abs())
+            let most = heat + (length * rising[i]).max(0.0) + defect[i];
+            let rounding = self.sums[i] * size + defect[i] + gets.abs();
+            (most - gets).max(0.0) + ROUNDING * rounding
         };
-        (0..from.len()).map(row).collect()
+        heat.into_iter().enumerate().map(row).collect()
     }
 }

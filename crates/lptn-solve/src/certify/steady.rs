@@ -1,11 +1,11 @@
 //! Proven bounds on the errors of a steady state.
 //!
-//! If `A` bounds the slopes of the heat flows in a box around a state, as for runs (`bound.rs`), and
-//! `-A w >= |q| + m` for the heat `q` that the state leaves and margins `m`, then every face of the
-//! box `state +- w` sees heat that drives back into it: the box contains a steady state
-//! (C. Miranda, Boll. Un. Mat. Ital. 3 (1940) 5). It is the only one there, because a matrix with
-//! `-A w > 0` is an H-matrix, and a map whose Jacobians are all of that kind takes no value twice
-//! (D. Gale, H. Nikaido, Math. Ann. 159 (1965) 81).
+//! If `A` bounds the slopes of the heat flows in a box around a state, as for runs (`bound.rs`),
+//! and `-A w >= |q| + m` for the heat `q` that the state leaves and margins `m`, then every face of
+//! the box `state +- w` sees heat that drives back into it: the box contains a steady state (C.
+//! Miranda, Boll. Un. Mat. Ital. 3 (1940) 5). It is the only one there, because a matrix with `-A w
+//! > 0` is an H-matrix, and a map whose Jacobians are all of that kind takes no value twice (D.
+//! Gale, H. Nikaido, Math. Ann. 159 (1965) 81).
 
 use lptn_assembly::ThermalSystem;
 use lptn_integrate::Pattern;
@@ -34,9 +34,8 @@ impl Snapshot {
     /// positions of controls, in the order of the network. No other steady state is within them.
     ///
     /// # Errors
-    /// [`Uncertified::Node`] for a sampled state, [`Uncertified::Law`] if the heat of an element has
-    /// no bounds, [`Uncertified::Lost`] if no
-    /// box was found, as if no path leads to a boundary.
+    /// [`Uncertified::Node`] for a sampled state, [`Uncertified::Law`] if the heat of an element
+    /// has no bounds, [`Uncertified::Lost`] if no box was found, as if no path leads to a boundary.
     pub fn proven_errors(&self, system: &ThermalSystem) -> Result<Vec<f64>, Uncertified> {
         let network = system.network();
         no_samples(network)?;
@@ -72,7 +71,8 @@ impl Snapshot {
             let needed: Vec<f64> =
                 (0..state.len()).map(|i| left[i] + slopes.jumps[i] + ROUNDING * sizes[i]).collect();
             let mut bounds: Vec<f64> = needed.iter().map(|heat| heat * GENEROUS).collect();
-            let solved = factors.factorize(1.0, &matrix).and_then(|()| factors.solve(&mut bounds));
+            factors.set(&matrix);
+            let solved = factors.factorize(1.0).and_then(|()| factors.solve(&mut bounds));
             solved.ok_or_else(|| lost.clone())?;
             if !drives_back(&pattern, &matrix, (&bounds, &needed)) {
                 return Err(lost);

@@ -8,20 +8,14 @@ use std::f64::consts::PI;
 
 use lptn_units::Taylor;
 
-use super::defect::largest_of;
-
 /// Samples of a step: the polynomials have one degree less.
 pub(super) const SAMPLES: usize = 8;
 
-/// Samples that determine the solution of every integrator: the one-step method has polynomials of
-/// degree 11, CVODE of degree 5.
-pub(super) const INTEGRATED: usize = 13;
-
 /// Polynomials of one step in a variable from -1 at its start to 1 at its end.
-#[derive(Clone, Debug)]
-pub(super) struct Way {
+#[derive(Clone, Debug, Default)]
+pub(super) struct Way<const N: usize> {
     /// Coefficients of each unknown in K.
-    coefficients: Vec<[f64; SAMPLES]>,
+    coefficients: Vec<[f64; N]>,
 }
 
 /// The places of the samples: the extrema of a Chebyshev polynomial, at which interpolation is
@@ -49,26 +43,20 @@ pub(super) fn basis<const N: usize>() -> [[f64; N]; N] {
     })
 }
 
-impl Way {
-    /// The polynomials through samples, one list of all unknowns for each place.
-    pub(super) fn through(samples: &[Vec<f64>], basis: &[[f64; SAMPLES]; SAMPLES]) -> Self {
+impl<const N: usize> Way<N> {
+    /// Takes the polynomials through samples, one list of all unknowns for each place.
+    pub(super) fn put(&mut self, samples: &[Vec<f64>; N], basis: &[[f64; N]; N]) {
         let first = &samples[0];
-        let polynomial = |unknown: usize| {
-            let mut of = [0.0; SAMPLES];
-            for (sample, weights) in samples.iter().zip(basis) {
+        self.coefficients.resize(first.len(), [0.0; N]);
+        for (unknown, of) in self.coefficients.iter_mut().enumerate() {
+            *of = [0.0; N];
+            for (sample, weights) in samples[1..].iter().zip(&basis[1..]) {
                 // differences keep the digits that temperatures share
                 let rise = sample[unknown] - first[unknown];
                 of.iter_mut().zip(weights).for_each(|(c, w)| *c += w * rise);
             }
             of[0] += first[unknown];
-            of
-        };
-        Self { coefficients: (0..first.len()).map(polynomial).collect() }
-    }
-
-    /// Number of unknowns.
-    pub(super) fn len(&self) -> usize {
-        self.coefficients.len()
+        }
     }
 
     /// Temperature of an unknown in K at a place.
@@ -76,26 +64,16 @@ impl Way {
         self.coefficients[unknown].iter().rev().fold(0.0, |sum, c| sum * place + c)
     }
 
-    /// A bound on the distance in K of an unknown from the integrator's solution, of which these
-    /// are the values at [`places`].
-    pub(super) fn apart(
-        &self,
-        unknown: usize,
-        values: [f64; INTEGRATED],
-        basis: &[[f64; INTEGRATED]; INTEGRATED],
-    ) -> f64 {
-        let mut difference = [0.0; INTEGRATED];
-        for ((value, place), weights) in values.iter().zip(places::<INTEGRATED>()).zip(basis) {
-            let apart = value - self.at(unknown, place);
-            difference.iter_mut().zip(weights).for_each(|(c, w)| *c += w * apart);
-        }
-        largest_of(&difference)
+    /// Change of the temperature of an unknown in K at a place.
+    pub(super) fn slope(&self, unknown: usize, place: f64) -> f64 {
+        let terms = self.coefficients[unknown].iter().enumerate().skip(1).rev();
+        terms.fold(0.0, |sum, (k, c)| sum * place + k as f64 * c)
     }
 
     /// Bounds on an unknown and its Taylor coefficients over the whole step.
     pub(super) fn whole(&self, unknown: usize) -> Taylor {
         let of = &self.coefficients[unknown];
-        let bounds: [[f64; 2]; SAMPLES] = std::array::from_fn(|k| {
+        let bounds: [[f64; 2]; N] = std::array::from_fn(|k| {
             let mut choose = 1.0;
             let mut spread = 0.0;
             for (j, c) in of.iter().enumerate().skip(k + 1) {
@@ -107,11 +85,6 @@ impl Way {
         });
         Taylor::between(&bounds)
     }
-
-    /// The Taylor coefficients of an unknown in the middle of the step.
-    pub(super) fn middle(&self, unknown: usize) -> Taylor {
-        Taylor::between(&self.coefficients[unknown].map(|c| [c, c]))
-    }
 }
 
 #[cfg(test)]
@@ -122,8 +95,9 @@ mod tests {
     #[test]
     fn polynomials_pass_through_their_samples() {
         let of = |s: f64| s.powi(7) - 2.0 * s.powi(3) + 300.0;
-        let samples: Vec<Vec<f64>> = places::<SAMPLES>().iter().map(|s| vec![of(*s)]).collect();
-        let way = Way::through(&samples, &basis());
+        let samples = places::<SAMPLES>().map(|s| vec![of(s)]);
+        let mut way = Way::default();
+        way.put(&samples, &basis());
         for i in 0..=40 {
             let s = f64::from(i) / 20.0 - 1.0;
             assert!((way.at(0, s) - of(s)).abs() < 1e-12, "{s}");
@@ -131,6 +105,6 @@ mod tests {
             let slope = 7.0 * s.powi(6) - 6.0 * s * s;
             assert!(low <= slope && slope <= high, "{low} {slope} {high}");
         }
-        assert!((way.middle(0).term(3)[0] + 2.0).abs() < 1e-12);
+        assert!((way.slope(0, 0.5) - (7.0 * 0.5_f64.powi(6) - 1.5)).abs() < 1e-12);
     }
 }

@@ -59,7 +59,7 @@ impl Run<'_> {
         let solution = self.recorder.into_solution(books, (statistics, events), end);
         let made_up = growth::made_up(self.grows, FINEST / self.tolerance);
         let method = Some(self.method);
-        let certificate = self.certifier.map(|c| c.map(Certifier::into_certificate));
+        let certificate = self.certifier.map(|c| c.and_then(Certifier::finish));
         Ok(Solution {
             end_state,
             controls,

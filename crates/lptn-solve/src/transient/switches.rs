@@ -10,9 +10,7 @@ impl Run<'_> {
     /// Bounds the errors over a part of a step.
     pub(super) fn bound_errors(&mut self, part: (f64, f64), segment: Segment) {
         let Some(Ok(certifier)) = &mut self.certifier else { return };
-        let integrator = &mut self.integrator;
-        let state_at = &mut |time: f64, y: &mut [f64]| integrator.interpolate(time, y);
-        if let Err(reason) = certifier.step((part, segment.inside()), state_at) {
+        if let Err(reason) = certifier.step(part, segment, self.integrator.as_mut()) {
             self.certifier = Some(Err(reason));
         }
     }

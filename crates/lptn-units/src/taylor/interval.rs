@@ -116,17 +116,15 @@ impl Mul for Interval {
         if self.is_zero() || other.is_zero() {
             return Self::ZERO;
         }
-        let ends = [
-            self.low * other.low,
-            self.low * other.high,
-            self.high * other.low,
-            self.high * other.high,
-        ];
-        if ends.iter().any(|end| end.is_nan()) {
+        let [a, b] = [self.low * other.low, self.low * other.high];
+        let [c, d] = [self.high * other.low, self.high * other.high];
+        if (a + b + c + d).is_nan() && [a, b, c, d].iter().any(|end| end.is_nan()) {
             return Self::ALL;
         }
-        let low = ends.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = ends.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let lesser = |x: f64, y: f64| if x < y { x } else { y };
+        let larger = |x: f64, y: f64| if x > y { x } else { y };
+        let low = lesser(lesser(a, b), lesser(c, d));
+        let high = larger(larger(a, b), larger(c, d));
         Self { low, high }
     }
 }
