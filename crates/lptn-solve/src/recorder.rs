@@ -11,6 +11,7 @@ use lptn_network::{NodeId, Positions};
 
 use crate::anchor::Anchor;
 use crate::balance::Balance;
+use crate::certify::results::Rows;
 use crate::certify::{Certifier, Uncertified};
 use crate::columns::{Columns, Room};
 use crate::error::TransientError;
@@ -148,9 +149,23 @@ impl<'a> Recorder<'a> {
         self.unfold.read_pipes(pipes)
     }
 
-    /// Bounds on the errors of the recorded nodes in the rows, for a run from this state.
-    pub(crate) fn certifier(&self, state: &[f64]) -> Result<Certifier<'a>, Uncertified> {
-        Certifier::new(self.system, (&self.recorded, &self.rows), (state, self.tolerance))
+    /// Bounds on the errors of the recorded nodes and of the certified columns in the rows, for a run
+    /// from this state.
+    pub(crate) fn certifier(
+        &self,
+        state: &[f64],
+        settings: &Transient,
+    ) -> Result<Certifier<'a>, Uncertified> {
+        let rows = Rows {
+            recorded: &self.recorded,
+            columns: settings
+                .certified
+                .as_ref()
+                .map_or_else(Vec::new, |of| of.quantities().to_vec()),
+            times: &self.rows,
+            readings: &self.readings,
+        };
+        Certifier::new(self.system, rows, (state, self.tolerance))
     }
 
     pub(crate) fn system(&self) -> &'a ThermalSystem {

@@ -245,7 +245,7 @@ impl<'a> Run<'a> {
         let straight = curved.is_none() && system.network().inputs_are_straight();
         let inputs = Inputs { curved: !straight, parts: segments.len() };
         let choice = (settings.integrator, inputs);
-        let certifier = settings.certify.then(|| recorder.certifier(&initial));
+        let certifier = settings.certify.then(|| recorder.certifier(&initial, settings));
         let (mut integrator, method) = stepper(heat, (settings.start, &initial), &options, choice)?;
         if !carried.is_empty() {
             integrator.set_sensitivities(&carried).map_err(TransientError::Integrator)?;

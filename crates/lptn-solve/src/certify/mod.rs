@@ -16,6 +16,8 @@ mod bound;
 mod collocation;
 mod defect;
 mod of_solution;
+mod polynomial;
+pub(crate) mod results;
 mod shifted;
 mod steady;
 mod way;
@@ -27,7 +29,11 @@ use lptn_units::Taylor;
 
 use bound::{Bound, Line};
 use collocation::Collocation;
+pub(crate) use of_solution::farthest;
+use results::{ResultBounds, Results, Rows};
 use way::{INTEGRATED, SAMPLES, Way};
+
+use crate::readings::pieces;
 
 /// Rounding errors of a sum of heats, as a share of the sum of their absolute values.
 pub(crate) const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -93,6 +99,8 @@ pub struct Certificate {
     pub(crate) rows: Vec<f64>,
     /// For each recorded node a bound in K over the whole run, rows or not.
     pub(crate) most: Vec<f64>,
+    /// Bounds on the results that follow from temperatures.
+    pub(crate) results: ResultBounds,
 }
 
 /// Follows a run and bounds its errors.
@@ -114,6 +122,7 @@ pub(crate) struct Certifier<'a> {
     constant: Option<Vec<f64>>,
     /// The way at the end of the last step.
     arrived: Vec<f64>,
+    results: Results<'a>,
 }
 
 /// The way over a piece, and the distance in K of the integrator's solution from it.
@@ -129,7 +138,7 @@ impl<'a> Certifier<'a> {
     /// A certifier from a start on whose temperatures, in K, are exact.
     pub(crate) fn new(
         system: &'a ThermalSystem,
-        (recorded, times): (&[NodeId], &[f64]),
+        Rows { recorded, columns, times, readings }: Rows<'_>,
         (start, tolerance): (&[f64], f64),
     ) -> Result<Self, Uncertified> {
         is_covered(system)?;
@@ -154,9 +163,10 @@ impl<'a> Certifier<'a> {
             bound,
             recorded: recorded.to_vec(),
             times: times.to_vec(),
-            certificate: Certificate { rows: Vec::new(), most: vec![0.0; recorded.len()] },
+            certificate: Certificate { most: vec![0.0; recorded.len()], ..Certificate::default() },
             constant,
             arrived: start.to_vec(),
+            results: Results::new(system, (recorded, columns), readings.clone()),
         })
     }
 
@@ -167,7 +177,8 @@ impl<'a> Certifier<'a> {
         ((from, to), inside): ((f64, f64), f64),
         state_at: &mut StateAt<'_>,
     ) -> Result<(), Uncertified> {
-        self.piece(((from, to), inside), 0, state_at)
+        let parts = pieces(self.results.breaks(), (from, to));
+        parts.into_iter().try_for_each(|(part, _)| self.piece((part, inside), 0, state_at))
     }
 
     /// A part of a step, which is halved until its own share of the bounds is small.
@@ -187,6 +198,7 @@ impl<'a> Certifier<'a> {
         let (piece, line) = found?;
         let lost = |_| Uncertified::Lost { time: from };
         self.write_rows(((from, to), &line), &piece, state_at).map_err(lost)?;
+        self.results.take(&mut self.scope, (from, to), (&piece.way, &line));
         self.bound.go(&line);
         self.arrived = (0..piece.way.len()).map(|i| piece.way.at(i, 1.0)).collect();
         Ok(())
@@ -330,6 +342,7 @@ impl<'a> Certifier<'a> {
             let off = |i: usize| (state[i] - way.at(i, place)).abs();
             let bounds: Vec<f64> =
                 (0..way.len()).map(|i| line.at(i, (time - from).max(0.0)) + off(i)).collect();
+            self.results.row(&mut self.scope, time, &state, &bounds);
             let nodes = self.of_nodes(&bounds);
             let row = self.recorded.iter().map(|id| nodes[id.index()]);
             self.certificate.rows.extend(row);
@@ -352,7 +365,7 @@ impl<'a> Certifier<'a> {
     }
 
     pub(crate) fn into_certificate(self) -> Certificate {
-        self.certificate
+        Certificate { results: self.results.into_found(), ..self.certificate }
     }
 }
 

@@ -5,7 +5,10 @@ use lptn_assembly::ThermalSystem;
 use lptn_network::{Conductance, HeatCapacity, HeatFlow, NetworkBuilder, Temperature};
 
 use super::Certifier;
+use super::results::Rows;
 use super::way::{SAMPLES, Way, basis, places};
+use crate::readings::Readings;
+use crate::times::Segment;
 
 /// Error of the bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,8 +60,14 @@ fn least_share(wrong: Wrong) -> f64 {
         vec![rest[0] - errors[0], rest[1] - errors[1]]
     };
     let recorded: Vec<_> = system.network().node_ids().collect();
-    let mut certifier = Certifier::new(&system, (&recorded, &[0.0, 100.0]), (&rest, 1e-5))
-        .unwrap_or_else(|reason| panic!("{reason}"));
+    let rows = Rows {
+        recorded: &recorded,
+        columns: Vec::new(),
+        times: &[0.0, 100.0],
+        readings: &Readings::none(Segment { from: 0.0, to: 100.0 }),
+    };
+    let mut certifier =
+        Certifier::new(&system, rows, (&rest, 1e-5)).unwrap_or_else(|reason| panic!("{reason}"));
     let mut slopes = certifier.constant.take().unwrap_or_default();
     if wrong == Wrong::Sign {
         let diagonal = [0, 1].map(|i| system.pattern().diagonal_slot(i));
