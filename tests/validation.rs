@@ -80,7 +80,9 @@ fn a_wrong_value_is_found() {
         let wrong = judge(id, &moved(right.clone()));
         let count = right["expected"].as_array().expect("a list").len();
         assert_eq!(wrong.counts(), [0, count], "{id}: {:?}", wrong.complaints());
-        assert_eq!(wrong.complaints().len(), count);
+        // temperatures also contradict their proven errors
+        let proven = wrong.complaints().iter().filter(|text| text.contains("K off, proven"));
+        assert_eq!(wrong.complaints().len(), count + proven.count());
     }
 }
 

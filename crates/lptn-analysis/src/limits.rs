@@ -1,7 +1,7 @@
 //! Results for limits.
 
 use lptn_network::{InputError, LimitId, Network};
-use lptn_solve::{LimitSeen, Periodic, SteadyState};
+use lptn_solve::{LimitSeen, Periodic, ProvenMargin, SteadyState};
 
 /// The result for a limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,14 +18,16 @@ pub struct LimitResult {
     pub broken_at: Option<f64>,
     /// Error of the margin in SI units in addition to the error of temperatures.
     pub open: f64,
+    /// Proven bounds on the margin, if they were asked for and found.
+    pub proven: Option<ProvenMargin>,
 }
 
 impl LimitResult {
     /// The result in a run or cycle.
     pub fn of_run(seen: &LimitSeen) -> Self {
-        let LimitSeen { limit, margin, worst_at, broken_at, open } = *seen;
+        let LimitSeen { limit, margin, worst_at, broken_at, open, proven } = *seen;
         let judged = !margin.is_nan();
-        Self { limit, margin, worst_at: judged.then_some(worst_at), broken_at, open }
+        Self { limit, margin, worst_at: judged.then_some(worst_at), broken_at, open, proven }
     }
 
     /// All limits over a periodic steady state, which has no first time.
@@ -44,7 +46,7 @@ impl LimitResult {
             let own = &network.limits()[limit.index()];
             let constant = network.changing_inputs_of(&[&own.of, &own.value]).is_empty();
             let margin = if constant { margin } else { f64::NAN };
-            Self { limit, margin, worst_at: None, broken_at: None, open: 0.0 }
+            Self { limit, margin, worst_at: None, broken_at: None, open: 0.0, proven: None }
         };
         Ok(network.limit_ids().zip(margins).map(one).collect())
     }
@@ -52,6 +54,26 @@ impl LimitResult {
     /// True if it is neither kept nor broken, because it was not judged.
     pub fn is_open(&self) -> bool {
         self.margin.is_nan()
+    }
+
+    /// A proven bound on the error of the margin in SI units; `None` if there is none.
+    pub fn margin_bound(&self) -> Option<f64> {
+        let [low, high] = self.proven?.margin;
+        (!self.is_open()).then(|| (high - self.margin).max(self.margin - low))
+    }
+
+    /// A proven bound in s on the error of the time at which it was first broken; `None` if there
+    /// is none.
+    pub fn time_bound(&self) -> Option<f64> {
+        let ([first, last], at) = (self.proven?.broken, self.broken_at?);
+        Some((last - at).max(at - first)).filter(|bound| bound.is_finite())
+    }
+
+    /// True if the verdict is proven, false if the bounds do not decide; `None` without bounds, and
+    /// if it was not judged.
+    pub fn is_proven(&self) -> Option<bool> {
+        let kept = self.proven.filter(|_| !self.is_open())?.kept();
+        Some(kept == Some(!self.is_broken()))
     }
 
     /// True if it is broken.

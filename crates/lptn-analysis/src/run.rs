@@ -133,10 +133,11 @@ impl RunAnalysis {
         Self(Transient { jumps: Some(of), ..self.0 })
     }
 
-    /// Bounds the error of each temperature with proof: see [`Solution::certificate`].
+    /// Bounds the error of each temperature with proof, and that of these columns: see
+    /// [`Solution::certificate`].
     #[must_use]
-    pub fn certified(self, certify: bool) -> Self {
-        Self(Transient { certify, ..self.0 })
+    pub fn certified(self, columns: Selection) -> Self {
+        Self(Transient { certify: true, certified: Some(columns), ..self.0 })
     }
 
     /// Keeps the heat balance of a node or boundary.

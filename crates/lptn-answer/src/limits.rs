@@ -5,7 +5,9 @@ use lptn_netlist::{Diagnostic, Netlist};
 use lptn_network::{Bound, Item, Limit, LimitId, LimitSeverity, Network};
 use lptn_plot::figure::{Level, Panel};
 use lptn_plot::printed;
-use lptn_report::{Claim, Clock, Standing, TEMPERATURE, Text, TextTable, duration, significant};
+use lptn_report::{
+    Claim, Clock, Standing, TEMPERATURE, Text, TextTable, duration, rounded_up, significant,
+};
 use lptn_study::SiValue;
 use lptn_units::{Dimension, Type, Unit};
 use serde_json::{Map, Value, json};
@@ -106,6 +108,10 @@ pub fn section(text: &mut Text, judgement: &Judgement<'_>) {
         let time = move |row: &Row<LimitResult>| time(row).unwrap_or_else(|| "-".into());
         table = table.right("least at", time).spare();
     }
+    if limits.iter().any(|judged| judged.proven.is_some()) {
+        let bound = |judged: &LimitResult| proven_error(judged, of(judged), unit);
+        table = table.right("proven error", move |row| bound(&row.item));
+    }
     let table = table.left("", |row| verdict(&row.item, of(&row.item), clock));
     text.section().table(table.judged(|row| standing(&row.item)));
 }
@@ -186,15 +192,31 @@ fn margin(judged: &LimitResult, limit: &Limit, unit: &Unit) -> String {
     if judged.is_open() { "-".into() } else { number(judged.margin, limit.margin_type(), unit) }
 }
 
+/// A bound on the error of the margin.
+fn proven_error(judged: &LimitResult, limit: &Limit, unit: &Unit) -> String {
+    let Some(bound) = judged.margin_bound() else { return "-".into() };
+    let (value, unit) = scale::in_unit(bound, limit.margin_type(), unit);
+    format!("{}{}", rounded_up(value), spaced(&unit))
+}
+
+/// " ± 0.02 s": the time at which a limit is broken lies between proven times.
+fn proven_time(judged: &LimitResult) -> String {
+    let bound = judged.time_bound().map(|bound| format!(" \u{b1} {} s", rounded_up(bound)));
+    bound.unwrap_or_default()
+}
+
 fn verdict(judged: &LimitResult, limit: &Limit, clock: Clock) -> String {
     if judged.is_open() {
         return "not judged".into();
     }
+    let within = proven_time(judged);
     match (judged.is_broken(), judged.broken_at, limit.severity) {
         (false, ..) => "kept".into(),
-        (true, Some(time), LimitSeverity::Error) => format!("BROKEN from {}", clock.text(time, 4)),
+        (true, Some(time), LimitSeverity::Error) => {
+            format!("BROKEN from {}{within}", clock.text(time, 4))
+        }
         (true, Some(time), LimitSeverity::Warning) => {
-            format!("exceeded from {}", clock.text(time, 4))
+            format!("exceeded from {}{within}", clock.text(time, 4))
         }
         (true, None, LimitSeverity::Error) => "BROKEN".into(),
         (true, None, LimitSeverity::Warning) => "exceeded".into(),
@@ -209,7 +231,7 @@ fn number(value: f64, ty: Type, unit: &Unit) -> String {
 
 /// Members by the limit's name:
 /// `{ of, below or above, worst, margin, worst_at, broken_at, severity, kept }`, temperatures in
-/// `unit`. `worst` is the value of `of` at the least margin. If a limit is not judged, `worst`,
+/// `unit`; with proven bounds `margin_bound`, `broken_between` and `is_proven` too. `worst` is the value of `of` at the least margin. If a limit is not judged, `worst`,
 /// `margin` and `kept` are null. Nothing without limits.
 pub fn members(
     network: &Network,
@@ -226,7 +248,7 @@ pub fn members(
             Bound::Below => bound - judged.margin,
             Bound::Above => bound + judged.margin,
         };
-        let member = json!({
+        let mut member = json!({
             "of": limit.text,
             limit.bound.field().key(): scalar(bound, limit.ty),
             "worst": scalar(worst, limit.ty),
@@ -236,6 +258,13 @@ pub fn members(
             "severity": if limit.severity == LimitSeverity::Error { "error" } else { "warning" },
             "kept": (!judged.is_open()).then_some(!judged.is_broken()),
         });
+        if let Some(proven) = &judged.proven {
+            let bound = judged.margin_bound().and_then(|bound| scalar(bound, limit.margin_type()));
+            let times = proven.broken.map(|at| time(Some(at).filter(|at| at.is_finite())));
+            member["margin_bound"] = json!(bound);
+            member["broken_between"] = json!(times);
+            member["is_proven"] = json!(judged.is_proven());
+        }
         (limit.name.clone(), member)
     };
     (!limits.is_empty()).then(|| limits.iter().map(one).collect())

@@ -2,39 +2,53 @@
 
 use lptn_analysis::LimitResult;
 use lptn_netlist::Diagnostic;
-use lptn_network::{Network, NodeId, list_of_names};
-use lptn_report::significant;
-use lptn_solve::{Solution, Uncertified};
+use lptn_network::{Item, Network, NodeId, list_of_names};
+use lptn_report::rounded_up as up;
+use lptn_solve::{NodeSummary, Selection, Solution, Uncertified};
 use serde_json::{Map, Value, json};
-
-/// Digits of a bound.
-const DIGITS: usize = 2;
-
-/// A bound with its last digit rounded up.
-fn up(bound: f64) -> String {
-    let mut text = significant(bound, DIGITS);
-    if text.parse::<f64>().is_ok_and(|shown| shown < bound) {
-        // half of the last digit, and as much as its rounding
-        text = significant(bound * (1.0 + 0.051), DIGITS);
-    }
-    text
-}
 
 /// True if there are bounds.
 pub(crate) fn is(solution: &Solution) -> bool {
     solution.certificate().is_some_and(Result::is_ok)
 }
 
-/// The bound of a node over the run; empty if there is none.
-pub(crate) fn cell(solution: &Solution, node: NodeId) -> String {
-    solution.largest_bound(node).map_or_else(String::new, up)
+/// The bound of a node over the run, and of its peak; empty if there is none.
+pub(crate) fn cell(solution: &Solution, node: &NodeSummary) -> String {
+    let peak = solution.peak_bound(node.node, node.peak.0).unwrap_or(0.0);
+    solution.largest_bound(node.node).map_or_else(String::new, |bound| up(bound.max(peak)))
 }
 
-/// The largest bound of all nodes as a sentence; `None` if there are none.
+/// The largest bounds of all nodes and of all heats as a sentence; `None` if there are none.
 pub(crate) fn claim(solution: &Solution) -> Option<String> {
     let bounds = solution.recorded().iter().filter_map(|id| solution.largest_bound(*id));
     let most = bounds.max_by(f64::total_cmp).filter(|_| is(solution))?;
-    Some(format!("proven: every temperature is within {} K of the exact solution", up(most)))
+    let heat = energies(solution).into_iter().filter_map(|(_, bound)| bound);
+    let heat = heat.max_by(f64::total_cmp).map_or_else(String::new, |bound| {
+        format!(", and the heat of each source and boundary over the run within {} J", up(bound))
+    });
+    let of = format!("every temperature is within {} K of the exact solution", up(most));
+    Some(format!("proven: {of}{heat}"))
+}
+
+/// Each source and boundary with the bound in J on its heat over the run, if there is one.
+fn energies(solution: &Solution) -> Vec<(String, Option<f64>)> {
+    let network = solution.network();
+    let sources = network
+        .heat_sources()
+        .map(|id| (network.name_of(Item::Source(id)).into_owned(), solution.source_bound(id)));
+    let boundaries = network
+        .boundary_ids()
+        .map(|id| (network.boundaries()[id.index()].name.clone(), solution.boundary_bound(id)));
+    sources.chain(boundaries).collect()
+}
+
+/// The bounds of the heat of sources and boundaries over the run, in J.
+pub(crate) fn heat_members(solution: &Solution) -> Option<Value> {
+    is(solution).then_some(())?;
+    let of = |(name, bound): (String, Option<f64>)| {
+        (name, bound.map_or(Value::Null, |bound| json!({ "value": bound, "unit": "J" })))
+    };
+    Some(Value::Object(energies(solution).into_iter().map(of).collect()))
 }
 
 /// The doubt that a bound was asked for and not found.
@@ -66,56 +80,70 @@ pub(crate) fn steady_members(network: &Network, bounds: &[f64]) -> Value {
     Value::Object(errors)
 }
 
-/// Meaning of the bounds, and the verdicts that they prove.
-pub(crate) fn notes(solution: &Solution) -> Vec<String> {
+/// Meaning of the bounds, the verdicts that they prove, and the results that have none.
+pub(crate) fn notes(solution: &Solution, selection: &Selection) -> Vec<String> {
     if let Some(unproven) = unproven(solution) {
         return vec![unproven.message];
     }
     if !is(solution) {
         return Vec::new();
     }
-    let network = solution.network();
     let meaning = "proven error: each temperature of the run is at most this far from the exact \
         solution of the network, at every time";
-    let judged: Vec<(bool, String)> = solution
-        .limits()
-        .iter()
-        .map(LimitResult::of_run)
-        .filter_map(|found| Some((is_proven(solution, &found)?, name(network, &found))))
-        .collect();
-    let of = |wanted: bool| -> Vec<String> {
-        let these = judged.iter().filter(|(proven, _)| *proven == wanted);
-        these.map(|(_, name)| name.clone()).collect()
-    };
-    let proven = Some(of(true)).filter(|names| !names.is_empty());
-    let open = Some(of(false)).filter(|names| !names.is_empty());
-    let proven = proven.map(|names| {
-        format!(
-            "proven verdicts: {}, whose margins are larger than the errors",
-            list_of_names(&names)
-        )
-    });
-    let open = open.map(|names| {
-        format!(
-            "the proven errors do not decide {}: choose a smaller --tolerance",
-            list_of_names(&names)
-        )
-    });
-    [meaning.to_owned()].into_iter().chain(proven).chain(open).collect()
+    let mut notes = vec![meaning.to_owned()];
+    notes.extend(heat_note(solution));
+    notes.extend(verdicts(solution));
+    let without = without(solution, selection);
+    notes.extend(
+        (!without.is_empty())
+            .then(|| format!("without a proven error: {}", list_of_names(&without))),
+    );
+    notes
 }
 
-fn name(network: &Network, found: &LimitResult) -> String {
-    network.limits()[found.limit.index()].name.clone()
+fn heat_note(solution: &Solution) -> Option<String> {
+    let bounds = energies(solution).into_iter().filter_map(|(name, bound)| Some((name, bound?)));
+    let (name, most) = bounds.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let most = up(most);
+    Some(format!("proven error of the heat over the run: at most {most} J, that of `{name}`"))
 }
 
-/// True if the margin of a limit of one temperature is larger than its error; `None` for other
-/// limits.
-fn is_proven(solution: &Solution, found: &LimitResult) -> Option<bool> {
+/// The limits whose verdicts are proven, and those that the bounds do not decide.
+fn verdicts(solution: &Solution) -> Vec<String> {
     let network = solution.network();
-    let limit = &network.limits()[found.limit.index()];
-    let node = network.node(limit.text.strip_suffix(".T")?).ok()?;
-    let bound = solution.largest_bound(node)?;
-    (!found.is_open()).then(|| found.margin.abs() > bound + found.open)
+    let all: Vec<LimitResult> = solution.limits().iter().map(LimitResult::of_run).collect();
+    let names = |wanted: Option<bool>| -> Option<String> {
+        let these = all.iter().filter(|found| !found.is_open() && found.is_proven() == wanted);
+        let name = |found: &LimitResult| network.limits()[found.limit.index()].name.clone();
+        let names: Vec<String> = these.map(name).collect();
+        (!names.is_empty()).then(|| list_of_names(&names))
+    };
+    let proven = names(Some(true))
+        .map(|names| format!("proven verdicts: {names}: the exact solution has the same"));
+    let open = names(Some(false)).map(|names| {
+        format!("the proven errors do not decide {names}: choose a smaller --tolerance")
+    });
+    let none = names(None).map(|names| {
+        format!("not proven: the verdicts of {names}, whose quantities have no proven error")
+    });
+    proven.into_iter().chain(open).chain(none).collect()
+}
+
+/// The columns, numbers over time and heats without a bound.
+fn without(solution: &Solution, selection: &Selection) -> Vec<String> {
+    let reports = &solution.network().reports();
+    let numbers = solution.reports_over_time().iter().filter(|seen| seen.bound.is_none());
+    let numbers = numbers.map(|seen| reports[seen.report.index()].name.clone());
+    let heats = energies(solution).into_iter().filter(|(_, bound)| bound.is_none());
+    let heats = heats.map(|(name, _)| format!("the heat of {name} over the run"));
+    let windows = solution.windows().iter().map(|window| format!("the window {}", window.name));
+    solution
+        .without_bounds(selection)
+        .into_iter()
+        .chain(numbers)
+        .chain(heats)
+        .chain(windows)
+        .collect()
 }
 
 /// The bounds of all recorded nodes over the run, in K.

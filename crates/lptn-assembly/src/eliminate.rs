@@ -153,6 +153,18 @@ impl Elimination {
         }
     }
 
+    /// Fills in bounds on the temperatures of the eliminated vertices: means of those of their
+    /// neighbours, and the rise by heat.
+    pub(crate) fn recover_bounds(&self, heat: &[Taylor], temperature: &mut [Taylor]) {
+        for star in self.stars.iter().rev() {
+            let added = heat[star.vertex as usize] * Taylor::constant(star.total.recip());
+            let weights = &self.weights[star.weights.clone()];
+            temperature[star.vertex as usize] = weights
+                .iter()
+                .fold(added, |sum, &(v, w)| sum + temperature[v as usize] * Taylor::constant(w));
+        }
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.stars.is_empty()
     }

@@ -126,6 +126,22 @@ impl ThermalSystem {
         Ok(rests_of_unknowns)
     }
 
+    /// Bounds on the temperatures of all vertices in K, nodes, then boundaries, while the unknowns go
+    /// the way `y`. The rounding of eliminated nodes is not in them.
+    ///
+    /// # Errors
+    /// A boundary or source without bounds.
+    pub fn enclose_vertices(
+        &self,
+        inputs: &mut InputBounds,
+        y: &[Taylor],
+    ) -> Result<Vec<Taylor>, Item> {
+        let mut way = self.way(inputs, y)?;
+        let heat = self.enclose_inputs(&mut way)?;
+        self.elimination().recover_bounds(&heat, &mut way.vertices);
+        Ok(way.vertices)
+    }
+
     fn way<'a>(&self, inputs: &'a mut InputBounds, y: &[Taylor]) -> Result<Way<'a>, Item> {
         let network = &self.network;
         let nodes = network.nodes().len();

@@ -71,6 +71,7 @@ mod printed;
 mod processors;
 #[path = "../../../tests/support/prose.rs"]
 mod prose;
+mod proven_results;
 mod random;
 mod ranges;
 mod rank;

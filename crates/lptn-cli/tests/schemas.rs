@@ -149,8 +149,9 @@ const ANSWERS: [(&str, &str, &[&str]); 20] = [
 ];
 
 /// Objects whose keys are names of a netlist or codes, by the end of their path.
-const MAPS: [&str; 29] = [
+const MAPS: [&str; 30] = [
     ".proven",
+    ".proven_heat",
     ".values",
     ".limits",
     ".sources",

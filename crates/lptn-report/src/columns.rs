@@ -6,6 +6,7 @@ use lptn_plot::figure::{Axis, Curve, Panel};
 use lptn_solve::{Column, Table};
 
 use crate::families::{MORE_MEMBERS, family};
+use crate::number::rounded_up;
 
 /// Most curves that can be distinguished in one panel.
 pub const MOST_CURVES: usize = 12;
@@ -16,33 +17,81 @@ pub const TEMPERATURE: &str = "temperature";
 /// Panels of the columns of a table over its first one, and the number of columns left out.
 /// Each unit has a panel, in order of appearance. Names of temperatures lose their end `.T`. A
 /// panel shows at most [`MOST_CURVES`] columns: those that reach highest. With `fold`, a large
-/// family is its highest and its lowest member, in a band from the least to the largest value.
+/// family is its highest and its lowest member, in a band from the least to the largest value. A
+/// column with proven errors, see [`bound_of`], is in a band as wide as these.
 pub fn panels(table: &Table, fold: bool) -> (Vec<Panel>, usize) {
     let Some((first, others)) = table.columns().split_first() else {
         return (Vec::new(), 0);
     };
+    let columns = others;
+    let others: Vec<&Column> = columns.iter().filter(|c| !is_bound(c, columns)).collect();
     let (mut panels, mut left_out) = (Vec::new(), 0);
     let mut done: Vec<(Quantity, &str)> = Vec::new();
-    for column in others {
+    for column in &others {
         let key = (Quantity::of(column), column.unit.as_str());
         if done.contains(&key) {
             continue;
         }
         done.push(key);
         let same = |other: &&Column| (Quantity::of(other), other.unit.as_str()) == key;
-        let all: Vec<&Column> = others.iter().filter(same).collect();
+        let all: Vec<&Column> = others.iter().copied().filter(same).collect();
         let (bands, single) = if fold { grouped(&all) } else { (Vec::new(), all.clone()) };
         let shown = highest(&single);
         left_out += single.len() - shown.len();
         let name = key.0.name().unwrap_or(if all.len() == 1 { &column.name } else { "" });
         let mut panel = Panel::new(across(first), Axis::linear(name, key.1));
         panel.curves.extend(bands.iter().flat_map(|members| band(first, members, key.0)));
-        shown.into_iter().for_each(|column| add(&mut panel.curves, curve(first, column)));
+        let proven = |column: &Column| within(curve(first, column), column, columns);
+        shown.into_iter().for_each(|column| add(&mut panel.curves, proven(column)));
         panels.push(panel);
     }
     let share = if panels.len() > 2 { 0.6 } else { 1.0 };
     panels.iter_mut().for_each(|panel| panel.share = share);
     (panels, left_out)
+}
+
+/// The end of the name of a column of proven errors, after that of the column they are of.
+const BOUND: &str = ".bound";
+
+/// The column of the proven errors of a column.
+pub fn bound_of<'a>(column: &Column, columns: &'a [Column]) -> Option<&'a Column> {
+    let is_own = |other: &&Column| other.name.strip_suffix(BOUND) == Some(column.name.as_str());
+    columns.iter().find(is_own)
+}
+
+/// True for a column of proven errors of another one.
+fn is_bound(column: &Column, columns: &[Column]) -> bool {
+    let of = column.name.strip_suffix(BOUND);
+    of.is_some_and(|of| columns.iter().any(|other| other.name == of))
+}
+
+/// A curve in the band of its proven errors, if there are any.
+fn within(curve: Curve, column: &Column, columns: &[Column]) -> Curve {
+    let Some(bounds) = bound_of(column, columns) else { return curve };
+    // errors of temperatures are in K
+    let scale = if matches!(column.unit.as_str(), "degF" | "degR") { 1.8 } else { 1.0 };
+    let side = |(value, bound): (&f64, &f64)| (value - scale * bound, value + scale * bound);
+    let spread = column.values.iter().zip(&bounds.values).map(side).collect();
+    curve.within(spread)
+}
+
+/// Caption of a figure with bands of proven errors: the largest one of each unit. `None` without
+/// bands.
+pub fn proven_caption(table: &Table) -> Option<String> {
+    let columns = table.columns();
+    let mut largest: Vec<(&str, f64)> = Vec::new();
+    for column in columns.iter().filter(|column| is_bound(column, columns)) {
+        match largest.iter_mut().find(|(unit, _)| *unit == column.unit) {
+            Some((_, known)) => *known = known.max(peak(column)),
+            None => largest.push((&column.unit, peak(column))),
+        }
+    }
+    let most = |(unit, bound): &(&str, f64)| {
+        let unit = if *unit == "1" { String::new() } else { format!(" {unit}") };
+        format!("{}{unit}", rounded_up(*bound))
+    };
+    let most: Vec<String> = largest.iter().map(most).collect();
+    (!most.is_empty()).then(|| format!("bands: proven errors, at most {}", most.join(", ")))
 }
 
 /// Quantity of a column, which names its axis.
@@ -163,7 +212,26 @@ fn highest<'a>(columns: &[&'a Column]) -> Vec<&'a Column> {
 mod tests {
     use lptn_solve::Table;
 
-    use super::panels;
+    use super::{panels, proven_caption};
+
+    /// 0.01 K is 0.018 degF on either side of 68 degF.
+    #[test]
+    fn proven_errors_are_bands_with_a_caption() {
+        let mut table = Table::of(&[0.0, 60.0]);
+        table.column("time", "s", |t| *t);
+        table.column("steel.T", "degF", |_| 68.0);
+        table.column("skin.Q", "W", |_| 5.0);
+        table.column("steel.T.bound", "K", |t| if *t > 0.0 { 0.01 } else { 0.0 });
+        table.column("skin.Q.bound", "W", |_| 0.25);
+        let table = table.done();
+        let (panels, _) = panels(&table, false);
+        assert_eq!(panels.len(), 2);
+        let (low, high) = panels[0].curves[0].spread[1];
+        assert!((low - 67.982).abs() < 1e-12 && (high - 68.018).abs() < 1e-12, "{low} {high}");
+        assert_eq!(panels[1].curves[0].spread[0], (4.75, 5.25));
+        let caption = proven_caption(&table).unwrap_or_default();
+        assert_eq!(caption, "bands: proven errors, at most 0.01 K, 0.25 W");
+    }
 
     #[test]
     fn a_unit_has_a_panel_and_the_highest_columns_stay() {

@@ -27,7 +27,7 @@ mod text;
 
 pub use clock::{Clock, TimeUnit};
 pub use colour::{Look, WIDTH};
-pub use columns::{MOST_CURVES, TEMPERATURE, panels};
+pub use columns::{MOST_CURVES, TEMPERATURE, bound_of, panels, proven_caption};
 pub use csv::{CsvLines, write_csv, write_rows};
 pub use families::{MORE_MEMBERS, family};
 pub use format::{Format, write};
@@ -35,7 +35,7 @@ pub use heat::{Flow, balance};
 pub use json::{Json, JsonWriter};
 pub use layout::{Align, Column, TextTable, TextTableOf, labelled, stacked};
 pub use names::{differing, plain, shortened};
-pub use number::{Shortest, decimals, duration, fixed, prefix, significant};
+pub use number::{Shortest, decimals, duration, fixed, prefix, rounded_up, significant};
 pub use of_page::{report_of, with_results};
 pub use page::{Page, PageOf, Rows};
 pub use picture::{Canvas, Picture};

@@ -89,6 +89,17 @@ pub fn duration(seconds: f64, digits: usize) -> String {
     format!("{} {}", significant(seconds / unit.1, digits), unit.2)
 }
 
+/// A bound with two digits, its last one rounded up.
+pub fn rounded_up(bound: f64) -> String {
+    const DIGITS: usize = 2;
+    let text = significant(bound, DIGITS);
+    if text.parse::<f64>().is_ok_and(|shown| shown < bound) {
+        let last = 10f64.powi(bound.log10().floor() as i32 - 1);
+        return significant((bound / last).ceil() * last, DIGITS);
+    }
+    text
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

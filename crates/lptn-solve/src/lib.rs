@@ -113,7 +113,7 @@ pub use events::{ControlState, Event, EventIndicator, EventKind, PositiveSide};
 pub use exact::{Difference, ExactError, ExactSolution};
 pub use last::LastState;
 pub use ledger::{Ledger, LedgerError};
-pub use limit_seen::LimitSeen;
+pub use limit_seen::{LimitSeen, ProvenMargin};
 pub use linearised::{Linearised, LinearisedError, Tried};
 pub use looks::Looks;
 #[cfg(feature = "cvodes")]

@@ -202,7 +202,7 @@ impl LimitSeen {
 
 fn nothing(limit: LimitId) -> LimitSeen {
     let (margin, worst_at) = (f64::INFINITY, f64::NAN);
-    LimitSeen { limit, margin, worst_at, broken_at: None, open: 0.0 }
+    LimitSeen { limit, margin, worst_at, broken_at: None, open: 0.0, proven: None }
 }
 
 /// The margin of a limit over time and its possible error, from the time histories of its sides

@@ -23,6 +23,28 @@ pub struct LimitSeen {
     /// Possible error of the margin in SI units, in addition to the error of temperatures, because
     /// its quantity changes faster than steps resolve; 0 if it does not.
     pub open: f64,
+    /// Proven bounds, if they were asked for and found.
+    pub proven: Option<ProvenMargin>,
+}
+
+/// Proven bounds on the least margin of a limit in a run, and on the time at which it is first
+/// broken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProvenMargin {
+    /// Both ends of the least margin in SI units.
+    pub margin: [f64; 2],
+    /// Time in s up to which it is kept for sure, and one at which it is broken for sure; infinite
+    /// if there is none.
+    pub broken: [f64; 2],
+}
+
+impl ProvenMargin {
+    /// True if it is kept for sure, false if it is broken for sure; `None` if the bounds do not
+    /// decide.
+    pub fn kept(&self) -> Option<bool> {
+        let [low, high] = self.margin;
+        (low >= 0.0 || high < 0.0).then_some(low >= 0.0)
+    }
 }
 
 impl LimitSeen {
@@ -60,7 +82,7 @@ pub(crate) mod tests {
         let netlist = lptn_netlist::parse("limit.toml", text).unwrap();
         let limit = netlist.network.limit_ids().next().unwrap();
         let (margin, worst_at) = (f64::INFINITY, f64::NAN);
-        LimitSeen { limit, margin, worst_at, broken_at: None, open: 0.0 }
+        LimitSeen { limit, margin, worst_at, broken_at: None, open: 0.0, proven: None }
     }
 
     #[test]

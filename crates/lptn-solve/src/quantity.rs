@@ -190,6 +190,11 @@ impl Shown {
         }
     }
 
+    /// True for points on the scale of temperatures.
+    pub(crate) fn is_absolute(&self) -> bool {
+        self.ty.absolute
+    }
+
     /// A value in that unit.
     pub(crate) fn value(&self, si: f64, temperature: &Unit) -> f64 {
         match &self.own {

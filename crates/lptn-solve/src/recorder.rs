@@ -11,6 +11,8 @@ use lptn_network::{NodeId, Positions};
 
 use crate::anchor::Anchor;
 use crate::balance::Balance;
+use crate::certify::results::Results;
+use crate::certify::rows::Rows;
 use crate::certify::{Certifier, Uncertified};
 use crate::columns::{Columns, Room};
 use crate::error::TransientError;
@@ -149,14 +151,20 @@ impl<'a> Recorder<'a> {
         self.unfold.read_pipes(pipes)
     }
 
-    /// Bounds on the errors of the recorded nodes in the rows, for a run from this state.
+    /// Bounds on the errors of the recorded nodes and of the certified columns in the rows, for a
+    /// run from this state.
     pub(crate) fn certifier(
         &self,
         method: Method,
         state: &[f64],
+        settings: &Transient,
     ) -> Result<Certifier<'a>, Uncertified> {
-        let rows = (&self.recorded[..], &self.rows[..]);
-        Certifier::new(self.system, method, rows, (state, self.tolerance))
+        let results = settings.certified.as_ref().map(|columns| {
+            let columns = columns.quantities().to_vec();
+            Results::new(self.system, (&self.recorded, columns), self.readings.clone())
+        });
+        let rows = Rows::new(self.system, &self.recorded, &self.rows);
+        Certifier::new(self.system, method, (rows, results), (state, self.tolerance))
     }
 
     pub(crate) fn system(&self) -> &'a ThermalSystem {

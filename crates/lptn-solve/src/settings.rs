@@ -53,6 +53,8 @@ pub struct Transient {
     pub sensitivities: Vec<ParameterId>,
     /// True if proven bounds on the errors are computed: see [`crate::Solution::certificate`].
     pub certify: bool,
+    /// The columns other than temperatures of nodes whose rows get bounds too.
+    pub certified: Option<Selection>,
     /// The integrator; default: chosen by the network.
     pub integrator: IntegratorChoice,
     /// The linear solver; default: chosen by size.
@@ -97,6 +99,7 @@ impl Transient {
             controls: Vec::new(),
             sensitivities: Vec::new(),
             certify: false,
+            certified: None,
             integrator: IntegratorChoice::Auto,
             linear_solver: LinearSolver::Auto,
         }

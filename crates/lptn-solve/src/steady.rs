@@ -104,7 +104,7 @@ impl SteadyState {
                 false => Ok(f64::NAN),
             }
         };
-        let one = |report| Ok(ReportSeen { report, value: value(report)?, open: 0.0 });
+        let one = |report| Ok(ReportSeen { report, value: value(report)?, open: 0.0, bound: None });
         network.reports_over_time().map(one).collect()
     }
 

@@ -3,6 +3,7 @@
 use lptn_network::{InputError, Network};
 use lptn_units::Unit;
 
+use crate::certify::farthest;
 use crate::quantity::{Quantity, Shown};
 use crate::selection::Selection;
 use crate::solution::Solution;
@@ -146,6 +147,9 @@ impl Table {
             for ((column, value), shown) in self.columns[1..].iter_mut().zip(values).zip(&shown) {
                 column.values.push(shown.value(*value, unit));
             }
+            // bounds are known in the rows
+            let bounds = self.columns[1..].iter_mut().skip(values.len());
+            bounds.for_each(|column| column.values.push(f64::NAN));
         }
         let times = &self.columns[0].values;
         let mut order: Vec<usize> = (0..rows + sides.len()).collect();
@@ -156,17 +160,33 @@ impl Table {
         self
     }
 
-    /// The table of a run with the proven bounds on the errors of its temperatures, in K, after the
-    /// other columns; the same if there are none.
+    /// The table of a run with the proven bounds on the errors of its columns after them, those of
+    /// temperatures in K; the same if there are none. `unit` is that of the temperatures.
     #[must_use]
-    pub fn with_bounds(mut self, solution: &Solution, selection: &Selection) -> Self {
-        for quantity in selection.quantities() {
-            let Quantity::Node(node) = quantity else { continue };
-            if let Some(values) = solution.bounds(*node) {
-                let name = format!("{}.bound", quantity.name(solution.network()));
-                self.columns.push(Column { name, unit: "K".into(), values });
-            }
-        }
+    pub fn with_bounds(mut self, solution: &Solution, selection: &Selection, unit: &Unit) -> Self {
+        let network = solution.network();
+        let columns = self.columns.get(1..).unwrap_or_default();
+        let bounds = selection.quantities().iter().zip(columns).filter_map(|(quantity, column)| {
+            let shown = Shown::of(*quantity, network);
+            let (scale, text) = match shown.is_absolute() {
+                true => (unit.scale, "K".to_owned()),
+                false => (1.0, column.unit.clone()),
+            };
+            let values = match quantity {
+                Quantity::Node(node) => solution.bounds(*node)?,
+                _ => {
+                    let ranges = solution.proven_ranges(*quantity)?;
+                    let ranges =
+                        ranges.into_iter().map(|range| range.map(|si| shown.value(si, unit)));
+                    let rows = ranges.zip(&column.values);
+                    rows.map(|(range, value)| scale * farthest(*value, range)).collect()
+                }
+            };
+            let known = !values.iter().all(|bound| bound.is_nan());
+            known.then(|| Column { name: format!("{}.bound", column.name), unit: text, values })
+        });
+        let bounds: Vec<Column> = bounds.collect();
+        self.columns.extend(bounds);
         self
     }
 

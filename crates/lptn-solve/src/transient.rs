@@ -246,7 +246,7 @@ impl<'a> Run<'a> {
         let inputs = Inputs { curved: !straight, parts: segments.len() };
         let choice = (settings.integrator, inputs);
         let (mut integrator, method) = stepper(heat, (settings.start, &initial), &options, choice)?;
-        let certifier = settings.certify.then(|| recorder.certifier(method, &initial));
+        let certifier = settings.certify.then(|| recorder.certifier(method, &initial, settings));
         if !carried.is_empty() {
             integrator.set_sensitivities(&carried).map_err(TransientError::Integrator)?;
         }

@@ -98,6 +98,8 @@ pub struct ReportSeen {
     /// error of temperatures, because its quantity changes faster than steps resolve; 0 if it does
     /// not.
     pub open: f64,
+    /// A proven bound on the error of the value in SI units, if it was asked for and found.
+    pub bound: Option<f64>,
 }
 
 impl ReportSeen {
@@ -113,6 +115,6 @@ impl ReportSeen {
         let over_time = network.reports()[report.index()].over_time.as_ref();
         let open = over_time.filter(|_| column.is_open());
         let open = open.map_or(0.0, |over_time| over_time.functional.error(&history, column.open));
-        Self { report, value, open }
+        Self { report, value, open, bound: None }
     }
 }

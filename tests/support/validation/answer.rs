@@ -7,7 +7,7 @@ use lptn_analysis::RunAnalysis;
 use lptn_fit::network::NetworkFit;
 use lptn_network::{BoundaryId, ConductorId, End, NodeId};
 use lptn_reduce::{Bias, ExponentialFit, NortonEquivalent, fit_exponential, transfer_resistance};
-use lptn_solve::{Complex, Drive, FrequencyResponse, Linearised, Mode, Modes};
+use lptn_solve::{Complex, Drive, FrequencyResponse, Linearised, Mode, Modes, Uncertified};
 
 use super::calibration;
 use super::case::Case;
@@ -34,6 +34,7 @@ pub struct Laboratory<'a> {
     model: Model,
     steady: OnceCell<Result<SteadyState, Trouble>>,
     run: OnceCell<Result<Solution, Trouble>>,
+    steady_bounds: OnceCell<Result<Result<Vec<f64>, Uncertified>, Trouble>>,
     means: OnceCell<Means>,
     fit: OnceCell<Result<NetworkFit, Trouble>>,
 }
@@ -46,7 +47,8 @@ impl<'a> Laboratory<'a> {
     /// The case at work on a network from elsewhere.
     pub fn of(case: &'a Case, json: &'a serde_json::Value, model: Model) -> Self {
         let (steady, run, means) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
-        Self { case, json, model, steady, run, means, fit: OnceCell::new() }
+        let (fit, steady_bounds) = (OnceCell::new(), OnceCell::new());
+        Self { case, json, model, steady, run, steady_bounds, means, fit }
     }
 
     pub fn system(&self) -> &ThermalSystem {
@@ -151,18 +153,28 @@ impl<'a> Laboratory<'a> {
         self.steady.get_or_init(solve).as_ref().map_err(Trouble::clone)
     }
 
+    /// Proven errors of the steady state in K, or why there are none.
+    pub fn steady_bounds(&self) -> Result<&Result<Vec<f64>, Uncertified>, Trouble> {
+        let prove = || Ok(self.steady()?.proven_errors(self.system()));
+        self.steady_bounds.get_or_init(prove).as_ref().map_err(Trouble::clone)
+    }
+
     /// A run from 0 with a row at each of these times; it ends at the last of them.
-    pub fn run_at(&self, mut times: Vec<f64>) -> Result<Solution, Trouble> {
+    pub fn run_at(&self, times: Vec<f64>) -> Result<Solution, Trouble> {
+        self.run_with(times, false)
+    }
+
+    fn run_with(&self, mut times: Vec<f64>, certify: bool) -> Result<Solution, Trouble> {
         times.retain(|t| *t > 0.0);
         times.sort_by(f64::total_cmp);
         times.dedup();
         let Some(stop) = times.last() else { return Err("a run without length".into()) };
         let run = Transient::until(Time(*stop)).at(&times).tolerance(self.case.tolerance());
-        Ok(run.solve(self.system())?)
+        Ok(Transient { certify, ..run }.solve(self.system())?)
     }
 
-    /// The run that has a row at every time at which a value is expected.
-    fn whole_run(&self) -> Result<&Solution, Trouble> {
+    /// The run that has a row at every time at which a value is expected, with proven errors.
+    pub fn whole_run(&self) -> Result<&Solution, Trouble> {
         let solve = || {
             let moments =
                 self.case.expected.iter().filter_map(|expected| match expected.quantity {
@@ -171,7 +183,7 @@ impl<'a> Laboratory<'a> {
                     | Quantity::BoundaryHeat { t: Moment::At(t), .. } => Some(t),
                     _ => None,
                 });
-            self.run_at(moments.chain([self.end()]).collect())
+            self.run_with(moments.chain([self.end()]).collect(), true)
         };
         self.run.get_or_init(solve).as_ref().map_err(Trouble::clone)
     }
@@ -339,7 +351,7 @@ pub fn temperature(solution: &Solution, end: End, row: usize) -> Option<f64> {
 type Combination = std::collections::BTreeMap<String, f64>;
 
 /// A temperature, a difference of two or a sum with factors.
-fn terms<'a>(
+pub fn terms<'a>(
     node: Option<&'a str>,
     minus: Option<&'a str>,
     combine: Option<&'a Combination>,

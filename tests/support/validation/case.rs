@@ -35,6 +35,12 @@ pub struct Case {
     pub calibration: Option<Calibration>,
 }
 
+/// Error in K of the numbers of closed forms: those of series and of roots are the largest.
+const CLOSED_FORM: f64 = 1e-9;
+
+/// A formula with a larger allowance in K is that of another model, of a continuum.
+const MODEL: f64 = 1e-3;
+
 fn celsius_zero() -> f64 {
     lptn_network::ZERO_CELSIUS
 }
@@ -54,6 +60,15 @@ impl Case {
         let transient = self.expected.iter().filter(|e| e.is_transient_temperature());
         let least = transient.map(Expected::allowed).fold(f64::INFINITY, f64::min);
         if least.is_finite() { (least / 100.0).max(1e-9) } else { 1e-7 }
+    }
+
+    /// The error in K of an expected temperature: that of the source, and rounding if it follows from
+    /// a formula. More is allowed for a formula only where cells approximate a continuum.
+    pub fn own_error(&self, expected: &Expected) -> f64 {
+        let exact =
+            ["closed form", "exact solution"].iter().any(|of| self.provenance.starts_with(of));
+        let allowed = expected.allowed();
+        if exact && allowed <= MODEL { allowed.min(CLOSED_FORM) } else { allowed }
     }
 
     /// The functions of time that are tables.

@@ -205,6 +205,16 @@ impl Expected {
         matches!(self.quantity, Quantity::T { t: Moment::At(_), .. })
     }
 
+    /// True for a value of a steady state.
+    pub fn is_steady(&self) -> bool {
+        matches!(
+            self.quantity,
+            Quantity::T { t: Moment::Steady, .. }
+                | Quantity::EdgeHeat { t: Moment::Steady, .. }
+                | Quantity::BoundaryHeat { t: Moment::Steady, .. }
+        )
+    }
+
     /// The latest time that is asked for, in s.
     pub fn latest(&self) -> f64 {
         match &self.quantity {

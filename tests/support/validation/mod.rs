@@ -14,6 +14,7 @@ mod gate;
 mod mean;
 mod network;
 pub mod page;
+mod proof;
 mod size;
 mod verdict;
 
@@ -101,10 +102,24 @@ fn values(case: &Case, laboratory: Result<Laboratory<'_>, Trouble>, report: &mut
             Ok(laboratory) => laboratory.answer(expected),
             Err(trouble) => Err(trouble.clone()),
         };
+        if let (Ok(laboratory), Ok(found)) = (&laboratory, &found)
+            && let Some(bound) = laboratory.bound(expected)
+        {
+            let (error, own) = ((found - expected.value).abs(), case.own_error(expected));
+            if error > bound + own {
+                let beyond = format!("{error:e} K off, proven {bound:e} K, own error {own:e} K");
+                report.complain(format!("{beyond}: {expected:?}"));
+            }
+        }
         let verdict = match found {
             Ok(found) => Verdict::of(found, expected),
             Err(Trouble(why)) => Verdict::Wrong(why),
         };
         report.add(expected, verdict);
+    }
+    match laboratory.as_ref().map(Laboratory::proof) {
+        Ok(Ok(proof)) => report.proof = proof,
+        Ok(Err(Trouble(why))) => report.complain(why),
+        Err(_) => {}
     }
 }

@@ -8,8 +8,8 @@ use super::verdict::Report;
 
 /// How the table begins.
 const HEADING: [&str; 2] = [
-    "| Case | What it is | Its answers are | Values | Largest error, of what is allowed |",
-    "|---|---|---|---|---|",
+    "| Case | What it is | Its answers are | Values | Largest error, of what is allowed | Proven error |",
+    "|---|---|---|---|---|---|",
 ];
 
 /// Upper ends of what is said of an error: machines differ in its digits.
@@ -34,7 +34,23 @@ fn rows(report: &Report, case: &Value) -> Vec<String> {
         report.worst() <= *end && (*end <= 1e-4 || report.worst() > end / 30.0)
     };
     let classes = CLASSES.iter().filter(near);
-    classes.map(|(_, shown)| format!("{start} {shown} |")).collect()
+    let proofs = proofs(report);
+    let pairs = classes.flat_map(|(_, shown)| proofs.iter().map(move |proof| (shown, proof)));
+    pairs.map(|(shown, proof)| format!("{start} {shown} | {proof} |")).collect()
+}
+
+/// Texts that may stand for the proven error, the tightest first: powers of ten above it.
+fn proofs(report: &Report) -> Vec<String> {
+    match &report.proof {
+        None => vec!["-".to_owned()],
+        Some(Err(code)) => vec![format!("not proven: `{code}`")],
+        Some(Ok(bound)) => {
+            let ends = (-12..=3).map(|power: i32| (10f64.powi(power), power));
+            let near =
+                ends.filter(|(end, _)| bound <= end && (*bound > end / 30.0 || *end <= 1e-12));
+            near.map(|(_, power)| format!("1e{power} K")).collect()
+        }
+    }
 }
 
 /// Compares the table of the page with the reports; `LPTN_BLESS=1` writes it.

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::case::Case;
 use super::expected::Expected;
+use super::proof::Proof;
 
 /// What is said of one value.
 #[derive(Clone, Debug)]
@@ -43,6 +44,7 @@ pub struct Report {
     lines: Vec<Line>,
     complaints: Vec<String>,
     tolerance: f64,
+    pub proof: Proof,
 }
 
 impl Report {
@@ -52,12 +54,13 @@ impl Report {
             lines: Vec::new(),
             complaints: Vec::new(),
             tolerance: case.tolerance(),
+            proof: None,
         }
     }
 
     pub fn unreadable(id: &str, why: &str) -> Self {
         let complaints = vec![format!("{id}: {why}")];
-        Self { id: id.to_owned(), lines: Vec::new(), complaints, tolerance: f64::NAN }
+        Self { id: id.to_owned(), lines: Vec::new(), complaints, tolerance: f64::NAN, proof: None }
     }
 
     pub fn complain(&mut self, what: String) {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use lptn_netlist::{CsvOptions, Diagnostic, Files, Record, RecordColumn, RecordQuery, read_record};
 use lptn_plot::Figure;
 use lptn_plot::figure::{Look, Moment};
-use lptn_report::panels;
+use lptn_report::{panels, proven_caption};
 use lptn_solve::{Table, name_matches};
 use lptn_units::Unit;
 
@@ -131,11 +131,10 @@ fn stem(path: &Path) -> String {
 
 fn drawn(table: &Table, title: &str, fold: bool) -> Figure {
     let (panels, left_out) = panels(table, fold);
-    let note = match left_out {
-        0 => String::new(),
-        _ => format!("{left_out} lower curves are not shown; --select chooses"),
-    };
-    Figure { title: title.into(), note, panels }
+    let lower =
+        (left_out > 0).then(|| format!("{left_out} lower curves are not shown; --select chooses"));
+    let notes: Vec<String> = lower.into_iter().chain(proven_caption(table)).collect();
+    Figure { title: title.into(), note: notes.join("; "), panels }
 }
 
 impl Columns {
@@ -149,7 +148,11 @@ impl Columns {
         let (record, files) = read_record(Path::new(&text.name), &text.bytes, &query)?;
         let wanted = |column: &&RecordColumn| {
             self.select.is_empty()
-                || self.select.iter().any(|pattern| name_matches(pattern, &column.name))
+                || self.select.iter().any(|pattern| {
+                    // a column comes with its proven errors
+                    let name = column.name.strip_suffix(".bound").unwrap_or(&column.name);
+                    name_matches(pattern, &column.name) || name_matches(pattern, name)
+                })
         };
         let chosen: Vec<&RecordColumn> = record.columns.iter().filter(wanted).collect();
         if chosen.is_empty() {
@@ -159,7 +162,8 @@ impl Columns {
         let mut table = Table::of(&rows);
         table.column("time", "s", |row| record.time[*row]);
         for column in chosen {
-            let scale = scale.as_ref().filter(|_| column.unit.ty.absolute);
+            let is_point = column.unit.ty.absolute && !column.name.ends_with(".bound");
+            let scale = scale.as_ref().filter(|_| is_point);
             let unit = scale.unwrap_or(&column.unit);
             table.column(&column.name, &unit.text, |row| shown(column.values[*row], unit));
         }

@@ -3,7 +3,7 @@
 use lptn_network::Network;
 use lptn_plot::Figure;
 use lptn_plot::figure::{Curve, Moment, Panel};
-use lptn_report::{MOST_CURVES, TEMPERATURE, panels};
+use lptn_report::{MOST_CURVES, TEMPERATURE, panels, proven_caption};
 use lptn_solve::Event;
 
 use super::answer::RunAnswer;
@@ -63,6 +63,8 @@ impl RunAnswer {
         notes.extend(self.ended_early());
         if self.uncertainty().is_some() {
             notes.push("bands of 95 %".into());
+        } else {
+            notes.extend(proven_caption(&self.table));
         }
         notes.join("; ")
     }

@@ -5,9 +5,12 @@ use std::io;
 
 use lptn_plot::Figure;
 use lptn_report::{
-    Clock, Flow, Json, Page, Report, Rows, Text, TextTable, decimals, fixed, significant, sparkline,
+    Clock, Flow, Json, Page, Report, Rows, Text, TextTable, decimals, fixed, rounded_up,
+    significant, sparkline,
 };
-use lptn_solve::{Method, NodeSummary, RunStatus, Solution, SteadyError, Summary, first_there};
+use lptn_solve::{
+    Column, Method, NodeSummary, RunStatus, Solution, SteadyError, Summary, first_there,
+};
 use lptn_study::{RunEnd, StatisticsRecord};
 
 use super::answer::RunAnswer;
@@ -94,6 +97,7 @@ impl Page for RunAnswer {
         json.member("events", &events::json(&self.solution))?;
         json.member("ledger", &self.ledger())?;
         json.optional("proven", proven::members(&self.solution))?;
+        json.optional("proven_heat", proven::heat_members(&self.solution))?;
         let uncertain = |study| uncertainty::files::json(network, study, unit);
         let windowed = !self.task.settings.windows.is_empty();
         json.optional("limits", limits::members(network, &self.limits(), unit))?;
@@ -162,7 +166,7 @@ fn temperatures(of: &RunAnswer, nodes: &[NodeSummary]) -> TextTable {
         .right("at", |row| clock.text(row.item.peak.1, 3))
         .optional();
     let table = match proven::is(&of.solution) {
-        true => table.right("proven error [K]", |row| proven::cell(&of.solution, row.item.node)),
+        true => table.right("proven error [K]", |row| proven::cell(&of.solution, &row.item)),
         false => table,
     };
     table
@@ -185,12 +189,16 @@ fn columns(of: &RunAnswer, text: &mut Text) {
     let of_grids: Vec<String> = network.grid_values().map(|value| value.name(network)).collect();
     let is_of_grid = |name: &str| of_grids.iter().any(|value| value == name);
     let is_state = |name: &str| network.state(name).is_some();
+    let is_bound = |name: &str| name.ends_with(".bound");
     let wanted = |name: &str| {
-        is_report(name) || is_state(name) || is_of_grid(name) || (of.task.chosen && !is_node(name))
+        is_report(name)
+            || is_state(name)
+            || is_of_grid(name)
+            || (of.task.chosen && !is_node(name) && !is_bound(name))
     };
     let all = of.table.columns().get(1..).unwrap_or_default();
     let shown = all.iter().filter(|column| wanted(&column.name)).collect();
-    type Of<'a> = &'a lptn_solve::Column;
+    type Of<'a> = &'a Column;
     let last = |column: &Of<'_>| column.values.last().copied().unwrap_or(f64::NAN);
     let named = |column: &Of<'_>| (column.name.clone(), 0);
     let mut rows: Vec<Row<Of<'_>>> = families::folded(shown, of.folds(), named, last);
@@ -213,7 +221,22 @@ fn columns(of: &RunAnswer, text: &mut Text) {
         })
         .left("", |row| sparkline(of.solution.times(), &row.item.values, CURVE, 0.0))
         .optional();
+    let table = match proven::is(&of.solution) {
+        true => table.right("proven error", |row| bound_of(all, row)),
+        false => table,
+    };
     text.section().table(table);
+}
+
+/// The largest bound of a column in the rows, that of all members of a family.
+fn bound_of(all: &[Column], row: &Row<&Column>) -> String {
+    let bound = |column: &&Column| {
+        let values = &lptn_report::bound_of(column, all)?.values;
+        values.iter().copied().max_by(f64::total_cmp).filter(|bound| !bound.is_nan())
+    };
+    let bounds: Option<Vec<f64>> = row.all().map(bound).collect();
+    let most = bounds.and_then(|bounds| bounds.into_iter().max_by(f64::total_cmp));
+    most.map_or_else(|| "-".to_owned(), rounded_up)
 }
 
 fn start_of_curve(start: f64, clock: Clock) -> String {
@@ -269,7 +292,7 @@ fn notes(of: &RunAnswer, nodes: &[NodeSummary]) -> Vec<String> {
             significant(time, 4)
         )
     }));
-    notes.extend(proven::notes(&of.solution));
+    notes.extend(proven::notes(&of.solution, &of.task.selection));
     let unbounded = of.solution.trust.unbounded.as_ref().filter(|_| !proven::is(&of.solution));
     notes.extend(not_bounded(of.solution.network(), unbounded));
     notes.extend(weak_ledger(&of.solution));

@@ -59,8 +59,11 @@ impl RunTask {
             .map(|asked| asked.study((&self.input, &self.settings, &self.selection), listener));
         let wall_time = begun.seconds();
         let (lumping, table) = timed(listener, "results", || {
-            let table = Table::of_solution(&solution, &self.selection, &self.unit)
-                .with_bounds(&solution, &self.selection);
+            let table = Table::of_solution(&solution, &self.selection, &self.unit).with_bounds(
+                &solution,
+                &self.selection,
+                &self.unit,
+            );
             (Lumping::of_run(&solution), table)
         });
         Ok(RunAnswer {
@@ -95,7 +98,10 @@ impl RunTask {
         if self.report {
             record = RecordedNodes::All;
         }
-        let mut run = run.certified(self.certify);
+        let mut run = match self.certify {
+            true => run.certified(self.selection.clone()),
+            false => run,
+        };
         if self.picture {
             run = run.drawing(self.selection.clone());
         }

@@ -13,6 +13,7 @@ use crate::network::Network;
 use crate::network::flow::{name, place};
 use crate::parts::signal::Course;
 use crate::slot;
+use crate::value::Value;
 
 /// The numbers that expressions read over a stretch of time, as bounds. The variable of the way
 /// goes from -1 at its start to 1 at its end.
@@ -31,6 +32,16 @@ impl InputBounds {
             range.map_or(*bounds, |range| Bounded::from(Taylor::between(&[range])))
         };
         Self { slots: self.slots.iter().map(still).collect(), stack: Vec::new() }
+    }
+
+    pub(super) fn set(&mut self, slot: u32, bounds: Taylor) {
+        self.slots[slot as usize] = Bounded::from(bounds);
+    }
+
+    /// Bounds on an expression; `None` if there are none.
+    pub(super) fn value(&mut self, value: &Value) -> Option<Taylor> {
+        let Self { slots, stack } = self;
+        Bounded::watched(|| value.on(slots, stack).ok())?.map(Bounded::taylor)
     }
 }
 
@@ -77,7 +88,11 @@ impl Network {
     ) -> Option<[Taylor; 2]> {
         let conductor = &self.conductors()[id.index()];
         let dependence = self.parts.dependence(id);
-        let vertex = |k: usize| Bounded::from(at(dependence.vertices[k]));
+        // a constant conductor has no dependence, but its ends
+        let ends = [conductor.from, conductor.to].map(|end| self.vertex(end) as u32);
+        let vertex = |k: usize| {
+            Bounded::from(at(dependence.vertices.get(k).copied().unwrap_or_else(|| ends[k])))
+        };
         let InputBounds { slots, stack } = inputs;
         place(slots, &dependence, &vertex);
         if self.along(id).is_some() {

@@ -98,7 +98,7 @@ impl Network {
     }
 
     /// The side that has to be below, and the one that has to be above it.
-    fn ordered(&self, id: LimitId, [of, value]: [f64; 2]) -> [f64; 2] {
+    pub(super) fn ordered<T>(&self, id: LimitId, [of, value]: [T; 2]) -> [T; 2] {
         match self.limits()[id.index()].bound {
             Bound::Below => [of, value],
             Bound::Above => [value, of],

@@ -27,7 +27,9 @@ mod defect;
 mod laguerre;
 mod of_solution;
 mod pieces;
-mod rows;
+mod polynomial;
+pub(crate) mod results;
+pub(crate) mod rows;
 mod series;
 mod shifted;
 mod steady;
@@ -41,7 +43,9 @@ use lptn_network::{Item, Network, NodeId};
 use crate::heat::Heat;
 use crate::method::Method;
 use crate::times::Segment;
+pub(crate) use of_solution::farthest;
 use pieces::Pieces;
+use results::{ResultBounds, Results};
 use rows::Rows;
 use series::SeriesCertifier;
 
@@ -94,6 +98,8 @@ pub struct Certificate {
     pub(crate) rows: Vec<f64>,
     /// For each recorded node a bound in K over the whole run, rows or not.
     pub(crate) most: Vec<f64>,
+    /// Bounds on the results that follow from temperatures.
+    pub(crate) results: ResultBounds,
 }
 
 /// Follows a run and bounds its errors.
@@ -103,20 +109,23 @@ pub(crate) enum Certifier<'a> {
 }
 
 impl<'a> Certifier<'a> {
-    /// A certifier from a start on whose temperatures, in K, are exact.
+    /// A certifier from a start on whose temperatures, in K, are exact. Results are followed along
+    /// pieces, whatever the method.
     pub(crate) fn new(
         system: &'a ThermalSystem,
         method: Method,
-        (recorded, times): (&[NodeId], &[f64]),
+        (rows, results): (Rows<'a>, Option<Results<'a>>),
         (start, tolerance): (&[f64], f64),
     ) -> Result<Self, Uncertified> {
         is_covered(system)?;
-        let rows = (Rows::new(system, recorded, times), start);
-        Ok(match method {
-            Method::OneStep => {
-                Self::Series(Box::new(SeriesCertifier::new(system, rows, (times[0], tolerance))?))
+        let from = (rows.time(0), tolerance);
+        Ok(match (method, results) {
+            (Method::OneStep, None) => {
+                Self::Series(Box::new(SeriesCertifier::new(system, (rows, start), from)?))
             }
-            _ => Self::Pieces(Box::new(Pieces::new(system, rows, (times[0], tolerance))?)),
+            (_, results) => {
+                Self::Pieces(Box::new(Pieces::new(system, (rows, results, start), from)?))
+            }
         })
     }
 
@@ -141,11 +150,10 @@ impl<'a> Certifier<'a> {
 
     /// The bounds at the end of the run.
     pub(crate) fn finish(self) -> Result<Certificate, Uncertified> {
-        let rows = match self {
-            Self::Series(certifier) => certifier.finish()?,
-            Self::Pieces(certifier) => certifier.finish()?,
-        };
-        Ok(rows.into_certificate())
+        match self {
+            Self::Series(certifier) => Ok(certifier.finish()?.into_certificate()),
+            Self::Pieces(certifier) => certifier.finish(),
+        }
     }
 }
 

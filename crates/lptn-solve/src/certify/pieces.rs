@@ -9,9 +9,11 @@ use super::bound::{Bound, Line};
 use super::collocation::Collocation;
 use super::course::{Course, StateAt};
 use super::defect::{Largest, rest};
+use super::results::Results;
 use super::rows::Rows;
 use super::way::{self, SAMPLES, Way};
-use super::{ROUNDING, Uncertified};
+use super::{Certificate, ROUNDING, Uncertified};
+use crate::readings::pieces;
 
 /// Times that a tube around the way is widened before the step counts as lost.
 const WIDENED: usize = 24;
@@ -48,6 +50,8 @@ pub(crate) struct Pieces<'a> {
     allowed: f64,
     bound: Bound,
     rows: Rows<'a>,
+    /// Bounds on results, if they are asked for.
+    results: Option<Results<'a>>,
     /// The integrator's steps since the last piece, and a time in s inside their segment.
     course: Course,
     inside: f64,
@@ -65,7 +69,7 @@ impl<'a> Pieces<'a> {
     /// From a start on whose temperatures, in K, are exact.
     pub(super) fn new(
         system: &'a ThermalSystem,
-        (rows, start): (Rows<'a>, &[f64]),
+        (rows, results, start): (Rows<'a>, Option<Results<'a>>, &[f64]),
         (from, tolerance): (f64, f64),
     ) -> Result<Self, Uncertified> {
         let pattern = Pattern::from_symbolic(system.pattern().symbolic());
@@ -88,6 +92,7 @@ impl<'a> Pieces<'a> {
             allowed: SHARE * tolerance,
             bound,
             rows,
+            results,
             course: Course::new(start.len()),
             inside: from,
             length: 0.0,
@@ -99,8 +104,23 @@ impl<'a> Pieces<'a> {
     }
 
     /// Takes the part of a step from `from` to `to` in s, with comparisons of time as they are at
-    /// `inside`.
+    /// `inside`. Pieces end where results bend or jump.
     pub(super) fn step(
+        &mut self,
+        (span, inside): ((f64, f64), f64),
+        state_at: &mut StateAt<'_>,
+    ) -> Result<(), Uncertified> {
+        let breaks = self.results.as_ref().map_or(&[][..], Results::breaks);
+        for (part, begins) in pieces(breaks, span) {
+            if begins {
+                self.flush()?;
+            }
+            self.part((part, inside), state_at)?;
+        }
+        Ok(())
+    }
+
+    fn part(
         &mut self,
         ((from, to), inside): ((f64, f64), f64),
         state_at: &mut StateAt<'_>,
@@ -142,6 +162,9 @@ impl<'a> Pieces<'a> {
             self.length *= LONGER;
         }
         self.write_rows((from, to), &line);
+        if let Some(results) = &mut self.results {
+            results.take(&mut self.scope, (from, to), (&self.way, &line));
+        }
         self.bound.go(&line);
         let way = &self.way;
         self.arrived.iter_mut().enumerate().for_each(|(i, t)| *t = way.at(i, 1.0));
@@ -264,8 +287,14 @@ impl<'a> Pieces<'a> {
         for row in self.rows.up_to(to) {
             let time = self.rows.time(row).max(from);
             let (part, line) = (self.course.step_at(time), line.at(time - from));
-            self.rows.push(|i| part.at(i, time) - way.at(i, place(time)));
-            self.rows.add(row, line);
+            let apart = |i: usize| part.at(i, time) - way.at(i, place(time));
+            self.rows.push(apart);
+            self.rows.add(row, &line);
+            if let Some(results) = &mut self.results {
+                let state: Vec<f64> = (0..way.len()).map(|i| part.at(i, time)).collect();
+                let bounds: Vec<f64> = (0..way.len()).map(|i| line(i) + apart(i).abs()).collect();
+                results.row(&mut self.scope, time, (&state, &bounds));
+            }
         }
     }
 
@@ -273,9 +302,10 @@ impl<'a> Pieces<'a> {
         Uncertified::Law { name: self.system.network().name_of(item).into_owned(), time }
     }
 
-    pub(super) fn finish(mut self) -> Result<Rows<'a>, Uncertified> {
+    pub(super) fn finish(mut self) -> Result<Certificate, Uncertified> {
         self.flush()?;
-        Ok(self.rows)
+        let results = self.results.map(Results::into_found).unwrap_or_default();
+        Ok(Certificate { results, ..self.rows.into_certificate() })
     }
 }
 

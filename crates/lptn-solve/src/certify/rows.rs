@@ -8,7 +8,7 @@ use lptn_network::NodeId;
 use super::Certificate;
 
 /// The rows of a run, and the bounds of those that are written.
-pub(super) struct Rows<'a> {
+pub(crate) struct Rows<'a> {
     system: &'a ThermalSystem,
     recorded: Vec<NodeId>,
     times: Vec<f64>,
@@ -18,11 +18,11 @@ pub(super) struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    pub(super) fn new(system: &'a ThermalSystem, recorded: &[NodeId], times: &[f64]) -> Self {
+    pub(crate) fn new(system: &'a ThermalSystem, recorded: &[NodeId], times: &[f64]) -> Self {
         let mut place = vec![None; system.network().nodes().len()];
         system.unknowns().iter().enumerate().for_each(|(i, id)| place[id.index()] = Some(i));
         let unknowns = recorded.iter().map(|id| place[id.index()]).collect();
-        let certificate = Certificate { rows: Vec::new(), most: vec![0.0; recorded.len()] };
+        let certificate = Certificate { most: vec![0.0; recorded.len()], ..Certificate::default() };
         let (recorded, times) = (recorded.to_vec(), times.to_vec());
         Self { system, recorded, times, unknowns, certificate }
     }

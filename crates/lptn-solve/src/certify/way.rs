@@ -59,6 +59,11 @@ impl<const N: usize> Way<N> {
         }
     }
 
+    /// Number of unknowns.
+    pub(super) fn len(&self) -> usize {
+        self.coefficients.len()
+    }
+
     /// Temperature of an unknown in K at a place.
     pub(super) fn at(&self, unknown: usize, place: f64) -> f64 {
         self.coefficients[unknown].iter().rev().fold(0.0, |sum, c| sum * place + c)
@@ -68,6 +73,11 @@ impl<const N: usize> Way<N> {
     pub(super) fn slope(&self, unknown: usize, place: f64) -> f64 {
         let terms = self.coefficients[unknown].iter().enumerate().skip(1).rev();
         terms.fold(0.0, |sum, (k, c)| sum * place + k as f64 * c)
+    }
+
+    /// The Taylor coefficients of an unknown in the middle of the step.
+    pub(super) fn middle(&self, unknown: usize) -> Taylor {
+        Taylor::between(&self.coefficients[unknown].map(|c| [c, c]))
     }
 
     /// Bounds on an unknown and its Taylor coefficients over the whole step.
@@ -105,6 +115,7 @@ mod tests {
             let slope = 7.0 * s.powi(6) - 6.0 * s * s;
             assert!(low <= slope && slope <= high, "{low} {slope} {high}");
         }
+        assert!((way.middle(0).term(3)[0] + 2.0).abs() < 1e-12);
         assert!((way.slope(0, 0.5) - (7.0 * 0.5_f64.powi(6) - 1.5)).abs() < 1e-12);
     }
 }

@@ -69,6 +69,7 @@ impl Run<'_> {
             unresolved,
             certificate,
             ..solution
-        })
+        }
+        .with_proofs())
     }
 }

@@ -9,7 +9,7 @@ const STEP: f64 = 2.0;
 fn least_share(wrong: Wrong) -> f64 {
     let (system, rest) = at_rest();
     let rows = Rows::new(&system, &[], &[]);
-    let mut pieces = Pieces::new(&system, (rows, &rest), (0.0, 1e-5))
+    let mut pieces = Pieces::new(&system, (rows, None, &rest), (0.0, 1e-5))
         .unwrap_or_else(|reason| panic!("{reason}"));
     let mut slopes = pieces.constant.clone().unwrap_or_default();
     if wrong == Wrong::Sign {
