@@ -167,7 +167,7 @@ impl Chosen {
             let unit = self.asked.input.unit_of(self.ids[first + i]).text;
             table = table.right(format!("{} [{unit}]", range.name), value);
         }
-        table = table.right("sought", |choice| self.objective(choice));
+        table = table.right("objective", |choice| self.objective(choice));
         if self.kept().all().len() > 1 {
             let closest = |choice: &Choice| self.kept().text(self.worst(choice));
             table = table.left("closest", move |choice| closest(choice));

@@ -108,7 +108,7 @@ impl Far {
         self.most = most;
     }
 
-    /// Hands the distances over, and begins anew.
+    /// Hands the distances over, and begins with none.
     pub(super) fn hand_over(&mut self, to: &mut [f64]) {
         to.iter_mut().zip(&mut self.most).for_each(|(to, most)| {
             *to = to.max(*most);

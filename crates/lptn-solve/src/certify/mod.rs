@@ -12,14 +12,15 @@
 //! from its series (`series.rs`). For others it is found by collocation over some of their steps
 //! (`pieces.rs`), and the defect from its samples and the form of the laws (`defect.rs`).
 //!
+//! The results that the program prints are followed along the polynomials of `pieces.rs`, so a run
+//! with results takes these, whatever its method (`results.rs`).
+//!
 //! Nothing is taken from the integrator but numbers, and each bound is checked after it is found.
 //! Covered are networks without switches, pipes, heat contents over temperature, capacities that
 //! follow states, and balances of massless nodes; [`Uncertified`] names the others. Rounding is
 //! not directed: margins of some rounding errors of each sum are added.
 
 mod apart;
-#[cfg(test)]
-mod at_rest;
 mod bound;
 mod collocation;
 mod course;
@@ -37,10 +38,9 @@ mod straight;
 mod way;
 
 use lptn_assembly::ThermalSystem;
-use lptn_integrate::Integrator;
+use lptn_integrate::{Integrator, OdeSystem};
 use lptn_network::{Item, Network, NodeId};
 
-use crate::heat::Heat;
 use crate::method::Method;
 use crate::times::Segment;
 pub(crate) use of_solution::farthest;
@@ -130,11 +130,11 @@ impl<'a> Certifier<'a> {
     }
 
     /// Takes a part of the last step of an integrator.
-    pub(crate) fn step(
+    pub(crate) fn step<S: OdeSystem>(
         &mut self,
         part: (f64, f64),
         segment: Segment,
-        integrator: &mut dyn Integrator<Heat<'a>>,
+        integrator: &mut (dyn Integrator<S> + '_),
     ) -> Result<(), Uncertified> {
         match self {
             Self::Series(certifier) => match integrator.series() {
@@ -194,3 +194,6 @@ fn is_covered(system: &ThermalSystem) -> Result<(), Uncertified> {
         None => Ok(()),
     }
 }
+
+#[cfg(test)]
+mod at_rest;

@@ -58,7 +58,7 @@ impl<'a> Rows<'a> {
         self.certificate.rows = of_nodes;
     }
 
-    /// Notes bounds over a part of the run: of the unknowns, and what is to be added to those that
+    /// Notes bounds over a part of the run: of the unknowns, and an amount for each that
     /// [`Rows::for_each_unknown`] asks for.
     pub(super) fn note(&mut self, bound: impl Fn(usize) -> f64, far: &[f64]) {
         let mut most = std::mem::take(&mut self.certificate.most);
