@@ -3,7 +3,7 @@
 //! Beside the integrator's solution there is a second one, the way: polynomials that obey the
 //! balances much better. Put into the network they leave a defect, the heat that is missing at each
 //! node, and its largest value over a step is bounded. Thermal networks are cooperative: a warmer
-//! neighbour warms. So the defect bounds the error of the way node by node (`bound.rs`), also where
+//! neighbour warms. So the defect bounds the error of the way node by node (`bound.rs`), also if
 //! laws depend on temperature; a slope of the wrong sign counts with its absolute value, which only
 //! widens the bound. The distance of the integrator's solution from the way is known. The bound of
 //! a massless node is the mean of those around it.

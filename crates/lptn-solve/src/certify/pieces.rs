@@ -104,7 +104,7 @@ impl<'a> Pieces<'a> {
     }
 
     /// Takes the part of a step from `from` to `to` in s, with comparisons of time as they are at
-    /// `inside`. Pieces end where results bend or jump.
+    /// `inside`. Pieces end at the bends and jumps of results.
     pub(super) fn step(
         &mut self,
         (span, inside): ((f64, f64), f64),

@@ -176,7 +176,7 @@ impl<'a> SeriesCertifier<'a> {
         entered.ok_or(lost)
     }
 
-    /// Takes the step of the way that ends where the comparison does.
+    /// Takes the step of the way that ends with the comparison.
     fn take_finished(&mut self) -> Result<(), Uncertified> {
         let lost = Uncertified::Lost { time: self.group.to };
         while self.way.time() < self.end {
