@@ -1,6 +1,6 @@
 //! A proven bound on the error of every temperature of a run.
 //!
-//! Beside the integrator's solution there is a second one, the way: polynomials that obey the
+//! In addition to the integrator's solution there is a second one, the way: polynomials that obey the
 //! balances much better. Put into the network they leave a defect, the heat that is missing at each
 //! node, and its largest value over a step is bounded. Thermal networks are cooperative: a warmer
 //! neighbour warms. So the defect bounds the error of the way node by node (`bound.rs`), also if
