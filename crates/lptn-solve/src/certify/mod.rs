@@ -12,14 +12,12 @@
 //! from its series (`series.rs`). For others it is found by collocation over some of their steps
 //! (`pieces.rs`), and the defect from its samples and the form of the laws (`defect.rs`).
 //!
-//! The results that the program prints are followed along the polynomials of `pieces.rs`, so a run
-//! with results takes these, whatever its method (`results.rs`).
-//!
 //! Nothing is taken from the integrator but numbers, and each bound is checked after it is found.
 //! Covered are networks without switches, pipes, heat contents over temperature, capacities that
 //! follow states, and balances of massless nodes; [`Uncertified`] names the others. Rounding is
 //! not directed: margins of some rounding errors of each sum are added.
 
+mod along;
 mod apart;
 mod bound;
 mod collocation;
@@ -109,8 +107,7 @@ pub(crate) enum Certifier<'a> {
 }
 
 impl<'a> Certifier<'a> {
-    /// A certifier from a start on whose temperatures, in K, are exact. Results are followed along
-    /// pieces, whatever the method.
+    /// A certifier from a start on whose temperatures, in K, are exact.
     pub(crate) fn new(
         system: &'a ThermalSystem,
         method: Method,
@@ -119,13 +116,10 @@ impl<'a> Certifier<'a> {
     ) -> Result<Self, Uncertified> {
         is_covered(system)?;
         let from = (rows.time(0), tolerance);
-        Ok(match (method, results) {
-            (Method::OneStep, None) => {
-                Self::Series(Box::new(SeriesCertifier::new(system, (rows, start), from)?))
-            }
-            (_, results) => {
-                Self::Pieces(Box::new(Pieces::new(system, (rows, results, start), from)?))
-            }
+        let begin = (rows, results, start);
+        Ok(match method {
+            Method::OneStep => Self::Series(Box::new(SeriesCertifier::new(system, begin, from)?)),
+            _ => Self::Pieces(Box::new(Pieces::new(system, begin, from)?)),
         })
     }
 
@@ -151,7 +145,7 @@ impl<'a> Certifier<'a> {
     /// The bounds at the end of the run.
     pub(crate) fn finish(self) -> Result<Certificate, Uncertified> {
         match self {
-            Self::Series(certifier) => Ok(certifier.finish()?.into_certificate()),
+            Self::Series(certifier) => certifier.finish(),
             Self::Pieces(certifier) => certifier.finish(),
         }
     }

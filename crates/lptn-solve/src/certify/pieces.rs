@@ -163,7 +163,7 @@ impl<'a> Pieces<'a> {
         }
         self.write_rows((from, to), &line);
         if let Some(results) = &mut self.results {
-            results.take(&mut self.scope, (from, to), (&self.way, &line));
+            results.take(&mut self.scope, (from, to), (&self.way, &line.most()));
         }
         self.bound.go(&line);
         let way = &self.way;

@@ -11,7 +11,6 @@ use lptn_network::{Evaluation, HeatOf, History, InputBounds, LimitId, Network, N
 use lptn_units::Taylor;
 
 use super::ROUNDING;
-use super::bound::Line;
 use super::polynomial::Course;
 use super::way::{SAMPLES, Way};
 use crate::limit::of_moments;
@@ -169,14 +168,13 @@ impl<'a> Results<'a> {
         &mut self,
         scope: &mut Evaluation,
         (from, to): (f64, f64),
-        (way, line): (&Way<SAMPLES>, &Line),
+        (way, bound): (&Way<SAMPLES>, &dyn Fn(usize) -> f64),
     ) {
         self.found.span = Some((self.found.span.map_or(from, |(start, _)| start), to));
         let network = self.system.network();
         let [over, at] = network.input_bounds(scope, (from, to), self.readings.inside(from));
-        let most = line.most();
         let wide = |i: usize, of: Taylor| {
-            let bound = most(i) + ROUNDING * way.at(i, 1.0);
+            let bound = bound(i) + ROUNDING * way.at(i, 1.0);
             of + Taylor::between(&[[-bound, bound]])
         };
         let whole: Vec<Taylor> = (0..way.len()).map(|i| wide(i, way.whole(i))).collect();

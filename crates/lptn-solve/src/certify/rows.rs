@@ -38,6 +38,11 @@ impl<'a> Rows<'a> {
         first..first + self.times[first..].iter().take_while(|row| **row <= time).count()
     }
 
+    /// Number of all rows.
+    pub(super) fn count(&self) -> usize {
+        self.times.len()
+    }
+
     pub(super) fn time(&self, row: usize) -> f64 {
         self.times[row]
     }

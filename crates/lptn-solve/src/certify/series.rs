@@ -24,12 +24,14 @@
 use lptn_assembly::ThermalSystem;
 use lptn_integrate::{Integrator, OdeSystem, OneStep, Options, SeriesStep};
 
-use super::Uncertified;
+use super::along::Along;
 use super::apart::{Apart, Far};
 use super::bound::Bound;
 use super::laguerre::{MOST, Peaks, at_end, weights};
+use super::results::Results;
 use super::rows::Rows;
 use super::straight::Straight;
+use super::{Certificate, Uncertified};
 use crate::times::Segment;
 
 /// Rounding errors of a sum of a row, as a share of the sum of the absolute values.
@@ -64,6 +66,8 @@ pub(crate) struct SeriesCertifier<'a> {
     /// Time in s up to which the integrator's solution is compared with the way.
     compared: f64,
     far: Far,
+    /// Results, if they are asked for.
+    along: Option<Along<'a>>,
     /// The end of the last step of the way.
     arrived: Vec<f64>,
 }
@@ -104,7 +108,7 @@ struct Numbers<'s> {
 impl<'a> SeriesCertifier<'a> {
     pub(super) fn new(
         system: &'a ThermalSystem,
-        (rows, start): (Rows<'a>, &[f64]),
+        (rows, results, start): (Rows<'a>, Option<Results<'a>>, &[f64]),
         (from, tolerance): (f64, f64),
     ) -> Result<Self, Uncertified> {
         let lost = Uncertified::Lost { time: from };
@@ -126,6 +130,7 @@ impl<'a> SeriesCertifier<'a> {
             end: from,
             compared: from,
             far: Far::new(recorded),
+            along: results.map(|results| Along::new(system, results)),
             arrived: start.to_vec(),
         })
     }
@@ -195,9 +200,13 @@ impl<'a> SeriesCertifier<'a> {
         let rate = numbers.rate();
         let alike = rate <= ALIKE * group.rate && group.rate <= ALIKE * rate;
         if group.count > 0 && (group.count >= TOGETHER || !alike) {
-            group.close(&mut self.bound, &mut self.rows, self.system.mass())?;
+            let results = (&mut self.rows, &mut self.along);
+            group.close(&mut self.bound, results, self.system.mass())?;
         }
         group.take(&numbers, straight).ok_or(lost)?;
+        if let Some(along) = &mut self.along {
+            along.take(&step);
+        }
         if group.count == 0 {
             group.rate = rate;
         }
@@ -209,12 +218,15 @@ impl<'a> SeriesCertifier<'a> {
     }
 
     /// Ends the run.
-    pub(super) fn finish(mut self) -> Result<Rows<'a>, Uncertified> {
+    pub(super) fn finish(mut self) -> Result<Certificate, Uncertified> {
         self.take_finished()?;
         if self.group.count > 0 {
-            self.group.close(&mut self.bound, &mut self.rows, self.system.mass())?;
+            let results = (&mut self.rows, &mut self.along);
+            self.group.close(&mut self.bound, results, self.system.mass())?;
         }
-        Ok(self.rows)
+        let results = self.along.map(|along| along.into_results().into_found());
+        let results = results.unwrap_or_default();
+        Ok(Certificate { results, ..self.rows.into_certificate() })
     }
 }
 
@@ -273,7 +285,7 @@ impl Group {
     fn close(
         &mut self,
         bound: &mut Bound,
-        rows: &mut Rows<'_>,
+        (rows, along): (&mut Rows<'_>, &mut Option<Along<'_>>),
         mass: &[f64],
     ) -> Result<(), Uncertified> {
         for ((defect, mass), sum) in self.defect.iter_mut().zip(mass).zip(bound.sums()) {
@@ -281,6 +293,9 @@ impl Group {
         }
         let line = bound.over(self.to - self.from, &self.defect);
         let line = line.ok_or(Uncertified::Lost { time: self.from })?;
+        if let Some(along) = along {
+            along.close(&line, self.from, rows);
+        }
         let apart = &self.apart;
         while self.row < rows.written() && rows.time(self.row) <= self.to {
             let line = line.at((rows.time(self.row) - self.from).max(0.0));

@@ -44,7 +44,7 @@ fn least_share(wrong: Wrong) -> f64 {
             group.from = group.to;
             continue;
         }
-        let closed = group.close(&mut bound, &mut rows, system.mass());
+        let closed = group.close(&mut bound, (&mut rows, &mut None), system.mass());
         closed.unwrap_or_else(|reason| panic!("{reason}"));
         let pairs = bound.now().iter().zip(errors(way.time()));
         least = pairs.map(|(bound, error)| bound / error).fold(least, f64::min);
