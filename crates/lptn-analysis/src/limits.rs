@@ -25,7 +25,7 @@ pub struct LimitResult {
 impl LimitResult {
     /// The result in a run or cycle.
     pub fn of_run(seen: &LimitSeen) -> Self {
-        let LimitSeen { limit, margin, worst_at, broken_at, open, proven } = *seen;
+        let LimitSeen { limit, margin, worst_at, broken_at, open, proven, .. } = *seen;
         let judged = !margin.is_nan();
         Self { limit, margin, worst_at: judged.then_some(worst_at), broken_at, open, proven }
     }
@@ -58,8 +58,8 @@ impl LimitResult {
 
     /// A proven bound on the error of the margin in SI units; `None` if there is none.
     pub fn margin_bound(&self) -> Option<f64> {
-        let [low, high] = self.proven?.margin;
-        (!self.is_open()).then(|| (high - self.margin).max(self.margin - low))
+        let proven = self.proven?;
+        (!self.is_open()).then(|| proven.bound(self.margin))
     }
 
     /// A proven bound in s on the error of the time at which it was first broken; `None` if there

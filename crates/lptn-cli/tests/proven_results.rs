@@ -163,6 +163,32 @@ fn limits_have_proven_margins_and_times() {
     }
 }
 
+/// A limit that is passed by 1 mK, which a run at 1 mK alone takes for just reached: the bounds prove
+/// that it is broken.
+#[test]
+fn a_limit_that_is_broken_for_sure_is_broken() {
+    let text = WARMS
+        .replace("warm =", "barely = { of = \"body.T\", below = \"29.93162053 degC\" }\nwarm =");
+    let folder = Folder::with("warms.toml", &text);
+    let right = -100.0 * f64::ln(1.0 - 0.993_162_053);
+    for (text, tolerance) in TOLERANCES {
+        let found = folder.json(&format!("run warms.toml --certify --no-files --tolerance {text}"));
+        let found = found.json();
+        let barely = &found["limits"]["barely"];
+        assert_eq!(
+            (&barely["kept"], &barely["is_proven"]),
+            (&false.into(), &true.into()),
+            "{text}"
+        );
+        let margin = (number(&barely["margin"]), number(&barely["margin_bound"]));
+        within("barely", margin, 9.931_620_53 - rise(500.0), 10.0 * tolerance);
+        let [from, to] = [0, 1].map(|end| number(&barely["broken_between"][end]));
+        assert!(from <= right && right <= to && to - from < 1.0, "{text}: {from} {right} {to}");
+        let plain = folder.json(&format!("run warms.toml --no-files --tolerance {text}")).json();
+        assert_eq!(plain["limits"]["barely"]["kept"], tolerance > 5e-4, "{text}");
+    }
+}
+
 #[test]
 fn verdicts_of_all_limits_are_in_the_notes() {
     let folder = Folder::with("warms.toml", WARMS);

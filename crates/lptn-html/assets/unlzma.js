@@ -137,7 +137,10 @@ const unlzma = packed => {
       copy(repeated(place));
     } else {
       const count = length(matchLength, place), far = distance(count);
-      if (far == 0xffffffff) break;
+      if (far == 0xffffffff) {
+        if (code || at != packed.length) throw new Error("the packed core is damaged");
+        break;
+      }
       repeats = [far, ...repeats.slice(0, 3)];
       state = state < 7 ? 7 : 10;
       copy(count);

@@ -8,7 +8,7 @@ const SCRIPTS: [&str; 2] = [
 ];
 
 /// Hash of the script of live pages.
-const LIVE: &str = "sha256-H4DOv8wjMB6YHnFRERxMDnEUV70AfKFPV9Ea52Jhf5w=";
+const LIVE: &str = "sha256-u51+tgLsg89OO4Qhmm/O4Jj9P2VBZy1Uha806gStlq8=";
 
 /// The policy: nothing is loaded from anywhere. A live page may compile its core, in a worker whose
 /// script is in the page.

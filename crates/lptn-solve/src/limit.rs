@@ -195,6 +195,7 @@ impl LimitSeen {
     fn reached(&mut self, (tolerance, exact): (f64, bool)) {
         let reached = -ROUNDING.max(10.0 * tolerance)..0.0;
         if !exact && reached.contains(&self.margin) {
+            self.passed = Some((self.margin, self.broken_at));
             (self.margin, self.broken_at) = (0.0, None);
         }
     }
@@ -202,7 +203,7 @@ impl LimitSeen {
 
 fn nothing(limit: LimitId) -> LimitSeen {
     let (margin, worst_at) = (f64::INFINITY, f64::NAN);
-    LimitSeen { limit, margin, worst_at, broken_at: None, open: 0.0, proven: None }
+    LimitSeen { limit, margin, worst_at, broken_at: None, open: 0.0, proven: None, passed: None }
 }
 
 /// The margin of a limit over time and its possible error, from the time histories of its sides

@@ -2,6 +2,8 @@
 
 use lptn_network::LimitId;
 
+use crate::certify::farthest;
+
 /// A time in s with a margin.
 pub(crate) type Point = (f64, f64);
 
@@ -25,6 +27,8 @@ pub struct LimitSeen {
     pub open: f64,
     /// Proven bounds, if they were asked for and found.
     pub proven: Option<ProvenMargin>,
+    /// The margin that was set to zero, with the time in s at which the limit was first broken.
+    pub(crate) passed: Option<(f64, Option<f64>)>,
 }
 
 /// Proven bounds on the least margin of a limit in a run, and on the time at which it is first
@@ -44,6 +48,11 @@ impl ProvenMargin {
     pub fn kept(&self) -> Option<bool> {
         let [low, high] = self.margin;
         (low >= 0.0 || high < 0.0).then_some(low >= 0.0)
+    }
+
+    /// A bound on the error of a margin in SI units.
+    pub fn bound(&self, margin: f64) -> f64 {
+        farthest(margin, self.margin)
     }
 }
 
@@ -82,7 +91,15 @@ pub(crate) mod tests {
         let netlist = lptn_netlist::parse("limit.toml", text).unwrap();
         let limit = netlist.network.limit_ids().next().unwrap();
         let (margin, worst_at) = (f64::INFINITY, f64::NAN);
-        LimitSeen { limit, margin, worst_at, broken_at: None, open: 0.0, proven: None }
+        LimitSeen {
+            limit,
+            margin,
+            worst_at,
+            broken_at: None,
+            open: 0.0,
+            proven: None,
+            passed: None,
+        }
     }
 
     #[test]

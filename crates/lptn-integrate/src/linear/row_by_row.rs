@@ -74,7 +74,7 @@ impl Rows {
         factors: &mut [f64],
         memory: &mut Memory,
     ) -> Result<(), usize> {
-        let SymbolicCholeskyRaw::Simplicial(factor) = symbolic.raw() else { return Ok(()) };
+        let SymbolicCholeskyRaw::Simplicial(factor) = symbolic.raw() else { return Err(0) };
         let (starts, rows) = (factor.col_ptr(), factor.row_idx());
         let Memory { row: x, ends } = memory;
         x.clear();

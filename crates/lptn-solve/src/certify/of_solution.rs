@@ -1,10 +1,14 @@
 //! The bounds of a solution.
 
-use lptn_network::{BoundaryId, Evaluation, HeatOf, LimitId, Network, NodeId, ReportId, SourceId};
+use lptn_network::{
+    BoundaryId, Evaluation, Functional, HeatOf, History, LimitId, Network, NodeId, OverTime,
+    ReportId, SourceId,
+};
 
 use super::results::{Followed, ResultBounds, reaches};
 use super::{Certificate, ROUNDING, Uncertified};
-use crate::limit_seen::ProvenMargin;
+use crate::limit::with_limits;
+use crate::limit_seen::{LimitSeen, ProvenMargin};
 use crate::quantity::Quantity;
 use crate::selection::Selection;
 use crate::solution::Solution;
@@ -99,11 +103,24 @@ impl Solution {
                 false => margin_over_time(network, &certificate.results, seen.limit, &mut scope),
             };
         }
+        let passed =
+            self.limits.iter_mut().filter_map(LimitSeen::proven_broken).collect::<Vec<_>>();
+        self.events = with_limits(self.events, &passed);
         for seen in &mut self.reports {
             let range = report_over_time(network, &certificate.results, seen.report, &mut scope);
             seen.bound = range.map(|range| farthest(seen.value, range));
         }
         self
+    }
+}
+
+impl LimitSeen {
+    /// Takes back that a margin was set to zero, if the limit is broken for sure.
+    fn proven_broken(&mut self) -> Option<Self> {
+        let kept = self.proven?.kept();
+        let (margin, broken_at) = self.passed.take_if(|_| kept == Some(false))?;
+        (self.margin, self.broken_at) = (margin, broken_at);
+        Some(*self)
     }
 }
 
@@ -119,7 +136,8 @@ fn around(numbers: &[f64]) -> Option<[f64; 2]> {
     numbers.iter().all(|x| x.is_finite()).then_some([low, high])
 }
 
-/// Every functional rises or falls with every statistic, so its ends are those of the statistics.
+/// Every functional rises or falls with every statistic, so its ends are those of the statistics; a
+/// life does so if the mean has one sign.
 fn report_over_time(
     network: &Network,
     results: &ResultBounds,
@@ -127,8 +145,15 @@ fn report_over_time(
     scope: &mut Evaluation,
 ) -> Option<[f64; 2]> {
     let [low, high] = results.histories(Quantity::Report(id))?;
+    let lives = network.reports()[id.index()].over_time.iter();
+    one_sign(lives.map(|of| (of, &low)))?;
     let mut of = |history| network.report_over_time(id, history, scope).ok();
     around(&[of(&low)?, of(&high)?])
+}
+
+/// `None` if a life is that of a mean which may be zero or less.
+fn one_sign<'a>(mut all: impl Iterator<Item = (&'a OverTime, &'a History)>) -> Option<()> {
+    all.all(|(of, low)| of.functional != Functional::Life || low.mean > 0.0).then_some(())
 }
 
 fn margin_over_time(
@@ -139,6 +164,8 @@ fn margin_over_time(
 ) -> Option<ProvenMargin> {
     let sides = [0, 1].map(|side| results.histories(Quantity::Side(id, side)));
     let ([of, value], end) = ([sides[0]?, sides[1]?], results.end()?);
+    let both = network.limits()[id.index()].over_time.iter().zip([&of[0], &value[0]]);
+    one_sign(both.filter_map(|(over_time, low)| Some((over_time.as_ref()?, low))))?;
     let mut margins = Vec::with_capacity(4);
     for of in of {
         for value in value {

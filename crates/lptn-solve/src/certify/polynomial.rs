@@ -34,7 +34,8 @@ impl Part {
     /// True if it makes no difference to halve the part: its values differ by rounding, or by little
     /// of an allowance.
     fn is_flat(&self, allowance: f64) -> bool {
-        self.spread <= (1e-3 * allowance).max(4.0 * f64::EPSILON * self.shifted[0].abs())
+        self.spread
+            <= (0.5 * Course::SLACK * allowance).max(4.0 * f64::EPSILON * self.shifted[0].abs())
     }
 
     /// True if the polynomial rises or falls over the whole part.
@@ -45,6 +46,9 @@ impl Part {
 }
 
 impl Course {
+    /// The most by which the ends of a range are outside of the values, as a share of the allowance.
+    pub(super) const SLACK: f64 = 2e-3;
+
     /// From the Taylor coefficients in the middle of a step and bounds on them over the whole step;
     /// `None` if nothing is known.
     ///
@@ -99,7 +103,8 @@ impl Course {
         Part { middle, half, shifted, spread }
     }
 
-    /// The least and the largest value of the polynomial; never less wide than they are.
+    /// The least and the largest value of the polynomial; wider than they are by at most
+    /// [`Course::SLACK`], never less wide.
     pub(super) fn range(&self) -> [f64; 2] {
         let ends = [self.at(-1.0), self.at(1.0)];
         let mut range = [ends[0].min(ends[1]), ends[0].max(ends[1])];
@@ -158,20 +163,21 @@ impl Course {
     }
 
     /// The shares of the range in which the number is surely above zero, and in which it may be.
-    pub(super) fn above_zero(&self) -> [f64; 2] {
-        self.share_above(&self.part(0.0, 1.0), HALVINGS - 6)
+    pub(super) fn above_zero(&self, allowance: f64) -> [f64; 2] {
+        self.share_above(&self.part(0.0, 1.0), HALVINGS - 6, allowance)
     }
 
-    fn share_above(&self, part: &Part, halvings: usize) -> [f64; 2] {
-        let spread = part.spread + self.allowance;
+    fn share_above(&self, part: &Part, halvings: usize, allowance: f64) -> [f64; 2] {
+        let spread = part.spread + allowance;
         let value = part.shifted[0];
         match () {
             () if value - spread > 0.0 => [part.half; 2],
             () if value + spread <= 0.0 => [0.0; 2],
-            () if halvings == 0 || part.is_flat(self.allowance) => [0.0, part.half],
+            () if halvings == 0 || part.is_flat(allowance) => [0.0, part.half],
             () => {
                 let halves = [-0.5, 0.5].map(|sign| {
-                    self.share_above(&self.part(part.end(sign), 0.5 * part.half), halvings - 1)
+                    let half = self.part(part.end(sign), 0.5 * part.half);
+                    self.share_above(&half, halvings - 1, allowance)
                 });
                 [halves[0][0] + halves[1][0], halves[0][1] + halves[1][1]]
             }
@@ -210,7 +216,7 @@ mod tests {
         assert!(may <= -0.5 && -0.5 < does && does - may < 1e-6, "{may} {does}");
         assert_eq!(square.may_fall_below(-0.3), None);
         assert_eq!(square.falls_below(-0.25), None);
-        let [surely, perhaps] = square.above_zero();
+        let [surely, perhaps] = square.above_zero(0.0);
         assert!(surely <= 0.5 && 0.5 <= perhaps && perhaps - surely < 1e-4, "{surely} {perhaps}");
     }
 

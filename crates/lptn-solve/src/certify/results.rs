@@ -55,12 +55,19 @@ impl Enclosed {
         let wide = |value: f64| [value - allowance, value + allowance];
         self.last = wide(course.at(1.0));
         let [low, high] = course.range();
-        let ([min, max], integral) = ([low, high].map(wide), wide(0.5 * course.integral()));
-        for end in [0, 1] {
+        let ([mut min, mut max], integral) = ([low, high].map(wide), wide(0.5 * course.integral()));
+        let slack = Course::SLACK * course.allowance + ROUNDING * course.size();
+        min[1] += slack;
+        max[0] -= slack;
+        let above = course.above_zero(allowance);
+        for (end, away) in [(0, -f64::EPSILON), (1, f64::EPSILON)] {
             self.min[end] = self.min[end].min(min[end]);
             self.max[end] = self.max[end].max(max[end]);
-            self.integral[end] += 2.0 * half * integral[end];
-            self.positive[end] += 2.0 * half * course.above_zero()[end];
+            let sums = [(&mut self.integral, integral), (&mut self.positive, above)];
+            for (sum, part) in sums {
+                sum[end] += 2.0 * half * part[end];
+                sum[end] += away * sum[end].abs(); // of this addition
+            }
         }
         let time = |place: f64| from + half * (1.0 + place);
         if self.falls[0].is_infinite() && min[0] < 0.0 {

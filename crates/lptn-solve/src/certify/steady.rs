@@ -3,9 +3,9 @@
 //! If `A` bounds the slopes of the heat flows in a box around a state, as for runs (`bound.rs`),
 //! and `-A w >= |q| + m` for the heat `q` that the state leaves and margins `m`, then every face of
 //! the box `state +- w` sees heat that drives back into it: the box contains a steady state (C.
-//! Miranda, Boll. Un. Mat. Ital. 3 (1940) 5). It is the only one there, because a matrix with `-A w
-//! > 0` is an H-matrix, and a map whose Jacobians are all of that kind takes no value twice (D.
-//! Gale, H. Nikaido, Math. Ann. 159 (1965) 81).
+//! Miranda, Boll. Un. Mat. Ital. 3 (1940) 5). It is the only one there, because a matrix with
+//! `-A w > 0` is an H-matrix, and a map whose Jacobians are all of that kind takes no value twice
+//! (D. Gale, H. Nikaido, Math. Ann. 159 (1965) 81).
 
 use lptn_assembly::ThermalSystem;
 use lptn_integrate::Pattern;

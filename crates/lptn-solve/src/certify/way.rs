@@ -1,8 +1,8 @@
 //! The way of the unknowns over a step, as polynomials.
 //!
 //! A certificate bounds the distance of the exact solution from these polynomials. They pass
-//! through samples of the integrator's own solution. Between the samples they are their own, so a
-//! certificate needs to know nothing about the integrator.
+//! through samples of a second solution. Between the samples they are their own, so a certificate
+//! needs to know nothing about an integrator.
 
 use std::f64::consts::PI;
 

@@ -32,7 +32,7 @@ use turns::Turns;
 /// An integrator on the way.
 pub(crate) type Stepping<'a> = dyn Integrator<Heat<'a>> + 'a;
 
-/// Most attempts in a row of one step.
+/// Most steps that are taken back before the time moves on.
 const ATTEMPTS: usize = 40;
 
 /// Steps are not limited to less than this share of the time.
@@ -160,11 +160,11 @@ impl Guard {
         let Some(after) = integrator.system_mut().look(step.to, &state).map(<[f64]>::to_vec) else {
             return Verdict::Stands;
         };
-        self.attempts += 1;
-        let patient = self.attempts <= ATTEMPTS;
+        let patient = self.attempts < ATTEMPTS;
         let passed = self.turns.passed([&self.now, &after]);
         if let Some(share) = passed.filter(|_| patient) {
             self.longest = share * length;
+            self.attempts += 1;
             return Verdict::Back;
         }
         let bend = self.corners.bend(integrator, step, ([&self.now, &after], self.fresh));
@@ -175,6 +175,7 @@ impl Guard {
         match bend.filter(|_| patient) {
             Some(corners::Bend::In { kink, longest }) => {
                 (self.kink, self.longest) = (self.kink.min(kink), longest.min(self.longest));
+                self.attempts += 1;
                 return Verdict::Back;
             }
             Some(corners::Bend::Behind) => verdict = Verdict::BeginsAnew,
@@ -214,7 +215,7 @@ impl Guard {
         self.corners.accept();
         (self.fresh, self.last) = (false, length);
         // steps that do not move the time are not a way through
-        if length > ROUNDING * step.to.abs() {
+        if length > 2.0 * ROUNDING * step.to.abs() {
             self.attempts = 0;
         }
         self.longest *= GROWTH;
