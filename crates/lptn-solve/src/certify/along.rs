@@ -186,6 +186,6 @@ mod tests {
         let first = (0.25 / SeriesStep::POLE).powi(8) / 40_320.0 * SeriesStep::POLE;
         let (right, found) = (first * most.fold(0.0, f64::max), largest(shares, &way::basis()));
         assert!((right..1.11 * right).contains(&found[FIRST]), "{} {right}", found[FIRST]);
-        assert_eq!(found[FIRST - 1], 0.0);
+        assert!(found[FIRST - 1] < f64::MIN_POSITIVE, "the seventh has degree 7");
     }
 }
