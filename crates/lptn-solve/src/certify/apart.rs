@@ -1,10 +1,10 @@
 //! The distance of the integrator's solution from a second one, in rows and between them.
 
-use std::f64::consts::PI;
-
 use lptn_integrate::SeriesStep;
 
+use super::defect::Largest;
 use super::rows::Rows;
+use super::way;
 
 /// Times in a part of a run that determine both solutions, whose degree is at most 12.
 const PLACES: usize = 13;
@@ -65,33 +65,20 @@ impl<'s> Apart<'s> {
 /// The largest distances of recorded nodes.
 pub(super) struct Far {
     most: Vec<f64>,
-    /// The places as shares of a part of the run.
-    places: [f64; PLACES],
-    /// For each place the Chebyshev coefficients of the polynomial that is 1 there and 0 at the
-    /// others.
-    basis: [[f64; PLACES]; PLACES],
+    largest: Largest<PLACES>,
 }
 
 impl Far {
     pub(super) fn new(recorded: usize) -> Self {
-        let last = (PLACES - 1) as f64;
-        let end = |k: usize| if k == 0 || k == PLACES - 1 { 0.5 } else { 1.0 };
-        let basis = std::array::from_fn(|place| {
-            std::array::from_fn(|k| {
-                let angle = PI * (k * place) as f64 / last;
-                2.0 / last * end(k) * end(place) * angle.cos()
-            })
-        });
-        let places = std::array::from_fn(|k| 0.5 + 0.5 * (PI * k as f64 / last).cos());
-        Self { most: vec![0.0; recorded], places, basis }
+        Self { most: vec![0.0; recorded], largest: Largest::new() }
     }
 
     /// Takes the largest distance over a part of the run.
     pub(super) fn take(&mut self, apart: &Apart<'_>, rows: &Rows<'_>) {
         let (from, to) = apart.span;
         let mut weights = [[[0.0; PLACES]; MOST]; 2];
-        for (place, share) in self.places.iter().enumerate() {
-            let here = apart.at(from + share * (to - from));
+        for (place, at) in way::places::<PLACES>().into_iter().enumerate() {
+            let here = apart.at(from + 0.5 * (1.0 + at) * (to - from));
             for (all, here) in weights.iter_mut().zip(here) {
                 all.iter_mut().zip(here).for_each(|(all, here)| all[place] = here);
             }
@@ -102,7 +89,7 @@ impl Far {
             let largest = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             // most steps add nothing to the largest one
             if LEBESGUE * largest > most[node] {
-                most[node] = most[node].max(largest_of(&values, &self.basis));
+                most[node] = most[node].max(self.largest.of(&values));
             }
         });
         self.most = most;
@@ -114,41 +101,5 @@ impl Far {
             *to = to.max(*most);
             *most = 0.0;
         });
-    }
-}
-
-/// A bound on a polynomial from its values at the extrema of a Chebyshev polynomial.
-///
-/// As a function of an angle it is `p = sum of c_k cos(k x)`. Between its largest value, at which
-/// its slope is 0, and the next place, at most half of their distance away, it falls by at most
-/// half the square of that times the largest `p''`, which is at most the sum of `k^2 |c_k|`.
-fn largest_of(values: &[f64; PLACES], basis: &[[f64; PLACES]; PLACES]) -> f64 {
-    let mut coefficients = [0.0; PLACES];
-    let mut most = 0.0_f64;
-    for (value, weights) in values.iter().zip(basis) {
-        most = most.max(value.abs());
-        coefficients.iter_mut().zip(weights).for_each(|(c, w)| *c += w * value);
-    }
-    let bend: f64 = coefficients.iter().enumerate().map(|(k, c)| (k * k) as f64 * c.abs()).sum();
-    let half = 0.5 * PI / (PLACES - 1) as f64;
-    most + 0.5 * half * half * bend
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A Chebyshev polynomial of degree 5, and `s^2 - 1/4`.
-    #[test]
-    fn polynomials_are_bounded_closely() {
-        let far = Far::new(0);
-        let bound = |p: &dyn Fn(f64) -> f64| {
-            let place = |i: usize| (PI * i as f64 / (PLACES - 1) as f64).cos();
-            largest_of(&std::array::from_fn(|i| p(place(i))), &far.basis)
-        };
-        let chebyshev = bound(&|s| ((16.0 * s * s - 20.0) * s * s + 5.0) * s);
-        assert!((1.0..1.3).contains(&chebyshev), "{chebyshev}");
-        let square = bound(&|s| s * s - 0.25);
-        assert!((0.75..0.78).contains(&square), "{square}");
     }
 }

@@ -38,18 +38,18 @@ pub(super) fn rest(whole: &Taylor) -> f64 {
     least.min(largest(SAMPLES) / 64.0)
 }
 
-/// Bounds on polynomials from their values at the samples of a step.
-pub(super) struct Largest {
+/// Bounds on polynomials from their values at `N` [`places`].
+pub(super) struct Largest<const N: usize> {
     /// For each place the Chebyshev coefficients of the polynomial that is 1 there and 0 at the
     /// others.
-    basis: [[f64; SAMPLES]; SAMPLES],
+    basis: [[f64; N]; N],
 }
 
-impl Largest {
+impl<const N: usize> Largest<N> {
     pub(super) fn new() -> Self {
-        let last = (SAMPLES - 1) as f64;
-        let end = |k: usize| if k == 0 || k == SAMPLES - 1 { 0.5 } else { 1.0 };
-        let places = places::<SAMPLES>();
+        let last = (N - 1) as f64;
+        let end = |k: usize| if k == 0 || k == N - 1 { 0.5 } else { 1.0 };
+        let places = places::<N>();
         let basis = std::array::from_fn(|place| {
             std::array::from_fn(|k| {
                 let angle = k as f64 * places[place].clamp(-1.0, 1.0).acos();
@@ -63,16 +63,16 @@ impl Largest {
     /// value, at which its slope is 0, and the next place, at most half of their distance away, it
     /// falls by at most half the square of that times the largest second derivative, which is at
     /// most the sum of `k^2 |c_k|`.
-    pub(super) fn of(&self, values: &[f64; SAMPLES]) -> f64 {
-        let mut coefficients = [0.0; SAMPLES];
+    pub(super) fn of(&self, values: &[f64; N]) -> f64 {
+        let mut coefficients = [0.0; N];
         let mut most = 0.0_f64;
         for (value, weights) in values.iter().zip(&self.basis) {
             most = most.max(value.abs());
             coefficients.iter_mut().zip(weights).for_each(|(c, w)| *c += w * value);
         }
-        let squares = (0..SAMPLES).map(|k| (k * k) as f64);
+        let squares = (0..N).map(|k| (k * k) as f64);
         let bend: f64 = squares.zip(&coefficients).map(|(square, c)| square * c.abs()).sum();
-        let half = 0.5 * PI / (SAMPLES - 1) as f64;
+        let half = 0.5 * PI / (N - 1) as f64;
         most + 0.5 * half * half * bend
     }
 }
@@ -82,7 +82,7 @@ mod tests {
     use super::*;
 
     fn largest(p: impl Fn(f64) -> f64) -> f64 {
-        Largest::new().of(&places::<SAMPLES>().map(p))
+        Largest::<SAMPLES>::new().of(&places().map(p))
     }
 
     /// A Chebyshev polynomial of degree 5 reaches 1 six times.
@@ -92,6 +92,16 @@ mod tests {
         assert!((1.0..2.0).contains(&bound), "{bound}");
         let square = largest(|s| s * s - 0.25);
         assert!((0.75..0.82).contains(&square), "{square}");
+    }
+
+    /// The same at 13 places: a Chebyshev polynomial of degree 5, and `s^2 - 1/4`.
+    #[test]
+    fn more_places_bound_more_closely() {
+        let bound = |p: &dyn Fn(f64) -> f64| Largest::<13>::new().of(&places().map(p));
+        let chebyshev = bound(&|s| ((16.0 * s * s - 20.0) * s * s + 5.0) * s);
+        assert!((1.0..1.3).contains(&chebyshev), "{chebyshev}");
+        let square = bound(&|s| s * s - 0.25);
+        assert!((0.75..0.78).contains(&square), "{square}");
     }
 
     /// exp(3 s): the distance from its interpolant, sampled, is below the bound and of its size.

@@ -45,7 +45,7 @@ pub(crate) struct Pieces<'a> {
     scope: Evaluation,
     basis: [[f64; SAMPLES]; SAMPLES],
     collocation: Collocation<'a>,
-    largest: Largest,
+    largest: Largest<SAMPLES>,
     /// The most in K that a piece may add to a bound without being halved.
     allowed: f64,
     bound: Bound,
