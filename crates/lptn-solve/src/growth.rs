@@ -91,15 +91,21 @@ impl Growth {
         }
         if change < least {
             let most = least / self.elapsed;
-            self.speed = self.speed.map(|speed| speed.min(most));
+            if self.speed.is_some_and(|speed| speed > most) {
+                self.takes(most);
+            }
             return;
         }
-        let speed = change / self.elapsed;
+        self.takes(change / self.elapsed);
+        self.before.copy_from_slice(state);
+        self.elapsed = 0.0;
+    }
+
+    /// Takes in a speed in K/s.
+    fn takes(&mut self, speed: f64) {
         self.now = (self.now * speed / self.speed.unwrap_or(speed)).max(1.0);
         self.most = self.most.max(self.now);
         self.speed = Some(speed);
-        self.before.copy_from_slice(state);
-        self.elapsed = 0.0;
     }
 
     /// The largest growth of an error.
@@ -192,6 +198,20 @@ mod tests {
         assert!((growth.most() - 5.1 / 4.0).abs() < 1e-9, "{}", growth.most());
         growth.step(0.0, &[9.0]);
         assert!((growth.speed.unwrap() - 2.55e-4).abs() < 1e-12);
+    }
+
+    /// A speed that falls to a hundredth and rises again, many times: errors grow a hundredfold
+    /// once. Slow parts change by less than 50 tolerances a step.
+    #[test]
+    fn speeds_that_fall_and_rise_again_count_once() {
+        let mut growth = new();
+        let mut state = 0.0;
+        growth.begin(&[state]);
+        for k in 0..100 {
+            state += if k % 10 < 5 { 1e-2 } else { 1e-4 };
+            growth.step(1.0, &[state]);
+        }
+        assert!((10.0..=100.1).contains(&growth.most()), "{}", growth.most());
     }
 
     #[test]

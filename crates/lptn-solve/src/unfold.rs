@@ -41,6 +41,24 @@ struct Stored<'a> {
     start: f64,
     /// The panel of the curve at the last call.
     panel: usize,
+    /// Its variable at the last call, in K.
+    carried: Option<f64>,
+    /// Its temperature then in K, and the slope of that over the variable.
+    here: (f64, f64),
+}
+
+impl Stored<'_> {
+    /// Temperature in K and its slope over the variable in K, for a capacity in J/K at the start;
+    /// `None` outside the curve.
+    fn at(&mut self, carried: f64, capacity: f64) -> Option<(f64, f64)> {
+        if self.carried != Some(carried) {
+            let heat = capacity * (carried - self.start);
+            let content = self.curve.temperature_near(heat, &mut self.panel)?;
+            self.here = (content.temperature, (capacity / content.capacity).max(LEAST_SLOPE));
+            self.carried = Some(carried);
+        }
+        Some(self.here)
+    }
 }
 
 /// Least slope of a temperature over its variable: melting at one temperature.
@@ -52,7 +70,7 @@ impl<'a> Unfold<'a> {
         let states = system.states();
         let contents = states.iter().enumerate().filter_map(|(state, &id)| {
             let (curve, start) = (network.enthalpy(id)?, network.initial(id));
-            Some(Stored { state, curve, start, panel: 0 })
+            Some(Stored { state, curve, start, panel: 0, carried: None, here: (start, 1.0) })
         });
         let count = system.unknowns().len();
         let mut algebraic = match states.len() {
@@ -140,14 +158,12 @@ impl<'a> Unfold<'a> {
     ) -> Result<&[f64], NewtonError> {
         self.temperatures[..carried.len()].copy_from_slice(carried);
         let capacities = self.system.capacity();
-        for Stored { state, curve, start, panel } in &mut self.contents {
-            let (state, capacity) = (*state, capacities[*state]);
-            let heat = capacity * (carried[state] - *start);
-            let Some(content) = curve.temperature_near(heat, panel) else {
-                return Err(NewtonError::Input(outside(self.system, state, curve)));
+        for stored in &mut self.contents {
+            let state = stored.state;
+            let Some(here) = stored.at(carried[state], capacities[state]) else {
+                return Err(NewtonError::Input(outside(self.system, state, stored.curve)));
             };
-            self.temperatures[state] = content.temperature;
-            self.slopes[state] = (capacity / content.capacity).max(LEAST_SLOPE);
+            (self.temperatures[state], self.slopes[state]) = here;
         }
         if let Some(pipes) = &self.pipes {
             let at = (carried, &mut self.temperatures[..]);

@@ -77,7 +77,9 @@ impl<'a> Elaboration<'a> {
         if let Some(raw) = fields.get(OFFSET).filter(|_| fields.known(OFFSET)) {
             self.map.value(item, Field::Offset, raw);
         }
-        let own = path.values().filter_map(Field::of_law);
+        // most keys of a section are not written: names of fields are looked up for the others only
+        let written = |key: &&str| fields.get(key).is_some() && fields.known(key);
+        let own = path.values().filter(written).filter_map(Field::of_law);
         for field in own.chain([Field::Material, Field::Fluid]) {
             if let Some(raw) = fields.get(field.key()).filter(|_| fields.known(field.key())) {
                 self.map.value(item, field, raw);

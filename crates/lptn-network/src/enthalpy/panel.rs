@@ -103,6 +103,10 @@ impl Panel {
     /// The temperature at which this heat is taken up. The capacity is positive, so the heat grows
     /// strictly.
     pub(super) fn invert(&self, heat: f64) -> f64 {
+        if self.terms == 1 {
+            // an infinite capacity leaves `from`
+            return (self.from + (heat / self.capacity[0]).max(0.0)).min(self.to);
+        }
         if self.to <= self.from || heat <= 0.0 {
             return self.from;
         }
@@ -110,16 +114,13 @@ impl Panel {
             return self.to;
         }
         let due = heat / self.half();
-        let along = if self.terms <= 2 { self.straight(due) } else { 1.0 + self.newton(due).0 };
+        let along = if self.terms == 2 { self.straight(due) } else { 1.0 + self.newton(due).0 };
         (self.from + self.half() * along).min(self.to)
     }
 
     /// `1 + x` at which the integral of a straight line is `due`: the root of a parabola, in the
     /// form that does not cancel.
     fn straight(&self, due: f64) -> f64 {
-        if self.terms == 1 {
-            return due / self.capacity[0];
-        }
         let slope = self.capacity[1];
         let first = self.capacity[0] - slope;
         2.0 * due / (first + (first * first + 2.0 * slope * due).max(0.0).sqrt())
