@@ -73,7 +73,7 @@ fn answered(expression: &str) -> String {
 /// The gearbox with `R` between its parts as a parameter.
 fn gearbox() -> Folder {
     let text = GEARBOX.replace("[param]", "[param]\nR = \"7.7 mK/W\"");
-    let text = text.replace("1.7 [K] / P_7000", "R");
+    let text = text.replace("1.7 [K] / 220.6 [W]", "R");
     let text = text + "\n[limit]\nhot = { of = \"steel.T\", below = \"83 degC\" }\n";
     let folder = Folder::with("gearbox.toml", &text);
     if has_core() {

@@ -63,7 +63,7 @@ const FIRST_SHARE: f64 = 1.0 / 3.0;
 
 impl GearPair<f64> {
     /// The highest flash temperature over the path of contact in K; NaN if the path reaches below a
-    /// base circle, where there is no involute.
+    /// base circle, in which no involute exists.
     ///
     /// * `speed`, `torque` of the pinion in rad/s and N m, of either sign
     /// * `friction`: the mean coefficient over the path

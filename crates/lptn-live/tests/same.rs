@@ -20,7 +20,7 @@ use serde_json::Value;
 fn gearbox() -> Input {
     let text = include_str!("../../../networks/gearbox.toml");
     let text =
-        text.replace("[param]", "[param]\nR = \"7.7 mK/W\"").replace("1.7 [K] / P_7000", "R");
+        text.replace("[param]", "[param]\nR = \"7.7 mK/W\"").replace("1.7 [K] / 220.6 [W]", "R");
     let folder = std::env::temp_dir().join(format!("lptn-live-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let file = folder.join("gearbox_R.toml");

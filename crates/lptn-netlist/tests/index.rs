@@ -86,7 +86,7 @@ fn values_follow_the_number_of_their_instance() {
     same(&seen(&with.network), &seen(&by_hand.network), 1e-14);
     // an expansion has the numbers
     let flat = with.expanded();
-    assert!(flat.contains("\"2 [W] * (1 + 0.1 * 2)\""), "{flat}");
+    assert!(flat.contains("\"cell[2].P\" = \"2.4 W\""), "{flat}");
     assert!(!flat.contains("index"), "{flat}");
     same(&seen(&good(&flat).network), &seen(&by_hand.network), 1e-14);
 }

@@ -87,7 +87,7 @@ pub(crate) fn unused_name(first: Item, name: &str) -> String {
     format!("rename one of them, for example `{other}`; {kinds} share one set of names")
 }
 
-/// A name of the parts of a grid as one of its own: `wall.y[3,3]` as `wall_y_3_3`.
+/// A name of a part of a grid as a separate name: `wall.y[3,3]` as `wall_y_3_3`.
 pub(crate) fn without_brackets(name: &str) -> String {
     name.replace(['.', '[', ','], "_").replace(']', "")
 }

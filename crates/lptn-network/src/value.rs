@@ -19,6 +19,16 @@ pub enum Value {
 }
 
 impl Value {
+    /// A number instead of an expression that reads nothing.
+    pub(crate) fn folded(self) -> Self {
+        match &self {
+            Self::Expression(program) if program.slots().is_empty() => {
+                program.eval(&[], &mut Vec::new()).map_or(self, Self::Constant)
+            }
+            _ => self,
+        }
+    }
+
     /// The value for these slots, on numbers or on dual numbers.
     pub(crate) fn on<S: Scalar>(&self, slots: &[S], stack: &mut Vec<S>) -> Result<S, EvalError> {
         match self {

@@ -101,6 +101,15 @@ class Data(unittest.TestCase):
         with mock.patch.dict(sys.modules, {"tqdm.auto": None}):
             self.assertRaises(ImportError, self.net.run, progress=True)
 
+    def test_without_numpy_a_column_says_how_to_get_it(self):
+        code = (
+            "import sys; sys.modules['numpy'] = None; import lptn; "
+            f"lptn.parse({BODY!r}).run()['block.T']"
+        )
+        ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        self.assertEqual(ran.returncode, 1)
+        self.assertIn("ImportError: columns of lptn need numpy: pip install numpy", ran.stderr)
+
     def test_results_are_pickled(self):
         for result in [self.run, self.net.steady(), self.net.run(P="100 W"), self.net.modes()]:
             again = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(result))))

@@ -90,7 +90,7 @@ macro_rules! errors {
         }
     ) => {
         $(#[$meta])*
-        #[allow(missing_docs, reason = "what each says tells what its fields are; all in SI units")]
+        #[allow(missing_docs, reason = "the words of each name its fields; all in SI units")]
         pub enum $name {
             $($(#[$doc])* $variant $(($($arg_ty),*))? $({ $($field: $ty),* })? $(($inner))?,)*
         }
@@ -265,7 +265,7 @@ macro_rules! problems {
         }
     ) => {
         $(#[$meta])*
-        #[allow(missing_docs, reason = "what each says tells what its fields are; all in SI units")]
+        #[allow(missing_docs, reason = "the words of each name its fields; all in SI units")]
         pub enum $name { $($(#[$doc])* $variant $({ $($field: $ty),* })?,)* }
 
         #[allow(unused_variables, reason = "each takes the fields that it needs")]

@@ -17,6 +17,9 @@ use crate::run::{RunAnswer, figure};
 const EVENTS: &str = "events.csv";
 const MANIFEST: &str = "manifest.json";
 
+/// Note on results in a folder, which have no rows at jumps.
+const STRAIGHT: &str = "straight between rows";
+
 /// The columns that are drawn.
 #[derive(Clone, Debug, Default)]
 pub struct Columns {
@@ -69,6 +72,9 @@ impl Source {
         }
         let (table, _) = wanted.of(&result)?;
         let mut figure = drawn(&table, &stem(path), wanted.families && wanted.select.is_empty());
+        let notes = [STRAIGHT, &figure.note].map(str::to_owned);
+        figure.note =
+            notes.into_iter().filter(|note| !note.is_empty()).collect::<Vec<_>>().join("; ");
         let moments = events(&path.join(EVENTS));
         figure.panels.iter_mut().for_each(|panel| panel.moments.clone_from(&moments));
         let doubts = (Files::new(), not_as_written(path, &result).into_iter().collect());

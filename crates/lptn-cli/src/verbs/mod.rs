@@ -127,7 +127,7 @@ verbs! {
     Reduce(reduce::ReduceArgs) => reduce::reduce, page |_| true, drawn "reduce" |_| true;
     Impedance(impedance::ImpedanceArgs) => impedance::impedance, page |_| true, drawn "impedance" |_| true;
     Gear(gear::GearArgs) => gear::gear, page |_| true, drawn "gear" |_| true;
-    Graph(graph::GraphArgs) => graph::graph, page |_| false, drawn "graph" |_| true;
+    Graph(graph::GraphArgs) => graph::graph, page |_| false, drawn "" |_| true;
     Check(check::CheckArgs) => check::check, page |args| !args.expand, drawn "" |_| false;
     Explain(explain::ExplainArgs) => explain::explain, page |_| true, drawn "" |_| false;
     New(new::NewArgs) => new::new, page |_| false, drawn "" |_| false;

@@ -114,7 +114,7 @@ impl Writer<'_, '_> {
             }
             speed = format!("{speed} - {}", self.name(against, "speed"));
         } else if Some(on) == self.stage.held {
-            let message = format!("{} is held: a part on it does not turn", owner.field(ON));
+            let message = format!("{} is fixed: a part on it does not turn", owner.field(ON));
             let help = format!(
                 "name a member that turns, or with `{AGAINST}` the member that \
                 turns in it"

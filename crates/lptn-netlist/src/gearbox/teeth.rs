@@ -292,7 +292,7 @@ impl<'n> Mesh<'n> {
             let length = self.at.tip[gear] - self.at.base[gear];
             if below(length) {
                 let what = format!(
-                    "are {} inside its base circle, where there is no involute",
+                    "are {} inside its base circle, in which no involute exists",
                     mm(-length)
                 );
                 let help = match self.pair.internal && gear == 1 {
@@ -322,7 +322,7 @@ impl<'n> Mesh<'n> {
         };
         let gear = (0..2).filter(known).find(|gear| self.at.thickness[*gear] < 0.0)?;
         let help = "give a smaller shift, or a shorter addendum".to_owned();
-        self.unfit(gear, "are beyond the point where the flanks of a tooth meet", help)
+        self.unfit(gear, "are beyond the point at which the flanks of a tooth meet", help)
     }
 
     /// The largest addendum that meets the involute of the other gear.

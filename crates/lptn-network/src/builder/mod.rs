@@ -74,9 +74,11 @@ impl NetworkBuilder {
         self.parts.title = Some(title.to_owned());
     }
 
-    /// Adds a parameter. Its expression may use parameters that were added before it.
+    /// Adds a parameter. Its expression may use parameters that were added before it; one that
+    /// reads nothing is a number.
     pub fn parameter(&mut self, name: &str, value: impl Into<Input>) -> ParameterId {
         let Input { value, ty, deviation, .. } = value.into();
+        let value = value.folded();
         let id = ParameterId::from_len(self.parts.parameters.len());
         self.parts.parameters.push(Parameter { name: name.to_owned(), ty, value, deviation });
         Arc::make_mut(&mut self.parts.layout).add_parameter(id);

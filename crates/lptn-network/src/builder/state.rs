@@ -154,9 +154,9 @@ impl NetworkBuilder {
         let source = self.push_source(name.as_str().into(), Kind::Source, &into, Path::heat(heat));
         let state = &mut self.parts.states[id.index()];
         state.source = Some(source);
-        state.start = Some(constant(start));
-        state.every = every.map(constant);
-        state.bounds = bounds.map(|bound| bound.map(constant));
+        state.start = Some(number(start));
+        state.every = every.map(number);
+        state.bounds = bounds.map(|bound| bound.map(number));
         Ok(source)
     }
 
@@ -205,14 +205,8 @@ impl NetworkBuilder {
     }
 }
 
-/// A number if the program reads nothing.
-fn constant(program: Program) -> Value {
-    match program.slots()[..] {
-        [] => program
-            .eval(&[], &mut Vec::new())
-            .map_or_else(|_| Value::Expression(Arc::new(program.clone())), Value::Constant),
-        _ => Value::Expression(Arc::new(program)),
-    }
+fn number(program: Program) -> Value {
+    Value::Expression(program.into()).folded()
 }
 
 /// The place of the rate or of the start in a template.

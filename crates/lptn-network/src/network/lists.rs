@@ -46,7 +46,7 @@ lists! {
     "limits" limits: Limit, limit_ids: LimitId;
     "reports" reports: Report, report_ids: ReportId;
     "controls" controls: Control, control_ids: ControlId;
-    "comparisons of temperatures whose truth is held between events"
+    "comparisons of temperatures whose truth is fixed between events"
         switches: Switch, switch_ids: SwitchId;
     "materials" materials: Material, material_ids: MaterialId;
     "fluids" fluids: Fluid, fluid_ids: FluidId;

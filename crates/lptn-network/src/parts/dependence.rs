@@ -40,7 +40,7 @@ pub(crate) struct Dependence {
     pub(crate) named: Vec<(u32, usize)>,
 }
 
-/// The dependence of a conductor. It takes no memory of its own if the heat depends on nothing but
+/// The dependence of a conductor. It takes no separate memory if the heat depends on nothing but
 /// the temperatures of the ends, as in a body of a million cells.
 #[derive(Clone, Debug)]
 pub(crate) enum OfConductor {

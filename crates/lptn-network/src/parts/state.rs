@@ -3,7 +3,7 @@
 //!
 //! A state is a node without paths. Its rate, divided by its scale, is the heat of a source into a
 //! capacity of 1 J/K, so 1 K of the node is one scale of the state. Integrators, steady states,
-//! events and sensitivities then need nothing of their own, and one tolerance in K serves all. Its
+//! events and sensitivities then need nothing more, and one tolerance in K serves all. Its
 //! node and source are not a part of the energy balance.
 //!
 //! A sampled state has its next value instead of a rate, from one sample to the next. Its rate is

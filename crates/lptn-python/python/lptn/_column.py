@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from . import _lptn
+from ._numpy import np
 
 
 class Column(np.ndarray):

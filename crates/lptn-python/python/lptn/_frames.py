@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
+from ._numpy import np
 
 if TYPE_CHECKING:
     from ._result import Table

@@ -7,10 +7,9 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from . import _lptn
 from ._messages import Error
+from ._numpy import np
 
 if TYPE_CHECKING:
     from ._network import Network

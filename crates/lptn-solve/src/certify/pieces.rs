@@ -1,4 +1,4 @@
-//! Proven bounds for any integrator: pieces of a run, each with polynomials of its own.
+//! Proven bounds for any integrator: pieces of a run, each with its polynomials.
 
 use lptn_assembly::ThermalSystem;
 use lptn_integrate::Pattern;

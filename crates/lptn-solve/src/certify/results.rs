@@ -268,7 +268,7 @@ impl Placed {
     }
 }
 
-/// True for a column that errors of temperatures reach. Those of nodes have bounds of their own.
+/// True for a column that errors of temperatures reach. Those of nodes have separate bounds.
 pub(crate) fn reaches(quantity: Quantity) -> bool {
     use Quantity::{Grid, Heat, Report, State};
     matches!(quantity, Grid(_) | Heat(_) | State(_) | Report(_))

@@ -69,7 +69,7 @@ fn contradiction(path: &Path, format: Kind, of_file: Kind) -> Failure {
 }
 
 fn no_format(path: &Path) -> Failure {
-    let message = format!("cannot tell the format from {}", path.display());
+    let message = format!("cannot read the format from {}", path.display());
     let help = "end it with .svg, .png, .dot, .mmd, .vtk or .csv, or add --format svg";
     refused(Diagnostic::error("graph::format", message).help(help))
 }

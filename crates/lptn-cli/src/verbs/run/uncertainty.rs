@@ -9,7 +9,7 @@ use lptn_answer::run::uncertainty::{self, UncertaintyQuestion};
 #[derive(Debug, Default, Arguments)]
 #[command(next_help_heading = "Uncertainty")]
 pub(crate) struct UncertaintyArgs {
-    /// Bands from every `±`, by linear or sobol [linear]
+    /// Bands from every `±` in `[param]`, by linear or sobol [linear]
     #[arg(long, value_name = "METHOD", hide_possible_values = true)]
     #[arg(num_args = 0..=1, default_missing_value = "linear")]
     pub(crate) uncertainty: Option<Method>,
