@@ -61,8 +61,9 @@ fn objects_have_the_bounds_or_the_reason() {
     assert!(error > 0.0 && error < 1e-3, "{error}");
     let plain = folder.json("run grow.toml --no-files").json();
     assert!(plain.get("proven").is_none());
-    let thermostat = include_str!("../../../networks/thermostat.toml");
-    let folder = Folder::with("net.toml", thermostat);
+    let power = "if(T < 30 [degC], 4 [W], 0 [W])";
+    let compares = GROWS.replace("1 [W] + 2 [W/K] * (T - 20 [degC])", power);
+    let folder = Folder::with("net.toml", &compares);
     let found = folder.json("run net.toml --certify --no-files").json();
     assert!(found.get("proven").is_none());
     let codes = found["warnings"].as_array().unwrap().iter().map(|w| w["code"].clone());

@@ -244,7 +244,7 @@ impl<'a> Run<'a> {
         let growth = Growth::of(system, options.tolerance);
         let straight = curved.is_none() && system.network().inputs_are_straight();
         let inputs = Inputs { curved: !straight, parts: segments.len() };
-        let choice = (settings.integrator, inputs);
+        let choice = (settings.integrator_for(system), inputs);
         let (mut integrator, method) = stepper(heat, (settings.start, &initial), &options, choice)?;
         let certifier = settings.certify.then(|| recorder.certifier(method, &initial, settings));
         if !carried.is_empty() {

@@ -365,11 +365,11 @@ fn networks_that_are_not_covered_say_so() {
     };
     let body = "[node]\nbody = { C = \"100 J/K\", T0 = \"20 degC\" }\n";
     let (code, text) = about(&format!(
-        "{body}[control]\nheater = {{ sense = \"body\", on_below = \"21 degC\", \
-         off_above = \"22 degC\" }}\n[source]\nq = {{ into = \"body\", P = \"5 [W] * heater\" }}\n"
+        "{body}[source]\nheater = {{ into = \"body\", \
+         P = \"if(body.T < 25 [degC], 5 [W], 0 [W])\" }}\n"
     ));
     assert_eq!(code, "certify::switches");
-    assert!(text.contains("`heater` switches"), "{text}");
+    assert!(text.contains("`heater` compares temperatures"), "{text}");
     let (code, text) = about(
         "[node]\nbody = { C = \"1 [J/K] + 1 [J/K^2] * (T - 0 [degC])\", T0 = \"20 degC\" }\n",
     );

@@ -6,6 +6,7 @@ pub(crate) mod body;
 mod capacity;
 pub(crate) mod conductivity;
 pub(crate) mod control;
+mod enclosed_gates;
 mod enclosed_results;
 pub(crate) mod enclosure;
 pub(crate) mod fields;

@@ -1,5 +1,7 @@
 //! Controls: thermostats that switch between off and on.
 
+use std::ops::Sub;
+
 use crate::id::{End, Field};
 use crate::value::Value;
 
@@ -49,8 +51,9 @@ impl Acts {
         }
     }
 
-    /// Excess of a temperature in K over the threshold at which a control leaves its state.
-    pub fn excess(self, [on, off]: [f64; 2], is_on: bool, felt: f64) -> f64 {
+    /// Excess of a temperature in K over the threshold at which a control leaves its state, of
+    /// numbers or of bounds.
+    pub fn excess<T: Sub<Output = T>>(self, [on, off]: [T; 2], is_on: bool, felt: T) -> T {
         match (self, is_on) {
             (Self::Cooling, false) => felt - on,
             (Self::Cooling, true) => off - felt,

@@ -117,7 +117,7 @@ impl<'a> Along<'a> {
         let most = line.most();
         for part in parts {
             let bound = |i: usize| most(i) + part.rest[i];
-            self.results.take(&mut self.scope, part.span, (&part.way, &bound));
+            self.results.take(&mut self.scope, part.span, (&part.way, &bound), None);
         }
         let end = parts.last().map_or(from, |part| part.span.1);
         while self.row < rows.count() && rows.time(self.row) <= end {
@@ -128,7 +128,7 @@ impl<'a> Along<'a> {
             let unknowns = 0..part.way.len();
             let state: Vec<f64> = unknowns.clone().map(|i| part.way.at(i, place)).collect();
             let bounds: Vec<f64> = unknowns.map(|i| bound(i) + part.rest[i]).collect();
-            self.results.row(&mut self.scope, time, (&state, &bounds));
+            self.results.row(&mut self.scope, (time, None), (&state, &bounds));
             self.row += 1;
         }
         self.count = 0;

@@ -59,6 +59,11 @@ impl Line {
         }
     }
 
+    /// The bounds at the start of the step in K.
+    pub(super) fn start(&self) -> &[f64] {
+        &self.from
+    }
+
     /// The most in K that a bound grows over the step.
     pub(super) fn adds(&self) -> f64 {
         let most = self.most();

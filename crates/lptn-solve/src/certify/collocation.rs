@@ -7,6 +7,7 @@
 
 use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
 use lptn_integrate::{FactorError, Pattern};
+use lptn_network::Positions;
 
 use super::shifted::{Shifted, power_of_two_above};
 use super::way::{SAMPLES, places};
@@ -67,6 +68,11 @@ impl<'a> Collocation<'a> {
             right: vec![0.0; count],
             weights,
         })
+    }
+
+    /// Takes the positions of everything that switches.
+    pub(super) fn set_positions(&mut self, positions: &Positions) {
+        self.works.iter_mut().for_each(|work| work.set_positions(positions));
     }
 
     /// Corrects the samples of a step at these times in s, but the first, until a sweep corrects

@@ -23,6 +23,8 @@ pub(super) struct Course {
     samples: [Vec<f64>; SAMPLES],
     steps: Vec<Part>,
     count: usize,
+    /// A time in s before which nothing is needed.
+    begin: f64,
 }
 
 /// One step, or a part of it.
@@ -47,7 +49,7 @@ impl Part {
 impl Course {
     pub(super) fn new(unknowns: usize) -> Self {
         let samples = std::array::from_fn(|_| vec![0.0; unknowns]);
-        Self { basis: basis(), samples, steps: Vec::new(), count: 0 }
+        Self { basis: basis(), samples, steps: Vec::new(), count: 0, begin: f64::NEG_INFINITY }
     }
 
     pub(super) fn add(
@@ -69,18 +71,23 @@ impl Course {
         Ok(())
     }
 
-    /// From the start of the first step to the end of the last one in s; `None` without steps.
+    /// From the start of the first step to the end of the last one in s, as far as they are needed;
+    /// `None` without steps.
     pub(super) fn span(&self) -> Option<(f64, f64)> {
         let steps = self.steps();
-        Some((steps.first()?.from, steps.last()?.to))
+        Some((steps.first()?.from.max(self.begin), steps.last()?.to))
+    }
+
+    /// Forgets the steps before a time in s.
+    pub(super) fn forget_before(&mut self, time: f64) {
+        let over = self.steps().partition_point(|part| part.to <= time);
+        self.steps[..self.count].rotate_left(over);
+        self.count -= over;
+        self.begin = time;
     }
 
     pub(super) fn is_full(&self) -> bool {
         self.count >= MOST || self.count * self.samples[0].len() * SAMPLES >= ROOM
-    }
-
-    pub(super) fn clear(&mut self) {
-        self.count = 0;
     }
 
     pub(super) fn steps(&self) -> &[Part] {

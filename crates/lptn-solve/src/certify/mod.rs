@@ -12,8 +12,11 @@
 //! from its series (`series.rs`). For others it is found by collocation over some of their steps
 //! (`pieces.rs`), and the defect from its samples and the form of the laws (`defect.rs`).
 //!
+//! A control switches inside a proven interval of time, through which the bound is carried
+//! (`pieces/window.rs`).
+//!
 //! Nothing is taken from the integrator but numbers, and each bound is checked after it is found.
-//! Covered are networks without switches, pipes, heat contents over temperature, capacities that
+//! Covered are networks without comparisons of temperatures, pipes, heat contents over temperature, capacities that
 //! follow states, and balances of massless nodes; [`Uncertified`] names the others. Rounding is
 //! not directed: margins of some rounding errors of each sum are added.
 
@@ -23,6 +26,7 @@ mod bound;
 mod collocation;
 mod course;
 mod defect;
+mod gates;
 mod laguerre;
 mod of_solution;
 mod pieces;
@@ -39,6 +43,7 @@ use lptn_assembly::ThermalSystem;
 use lptn_integrate::{Integrator, OdeSystem};
 use lptn_network::{Item, Network, NodeId};
 
+use crate::events::ControlState;
 use crate::method::Method;
 use crate::times::Segment;
 pub(crate) use of_solution::farthest;
@@ -54,11 +59,19 @@ lptn_units::errors! {
 /// Reason why a run has no proven bounds.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Uncertified {
-    /// Something switches; its name.
-    Switches { name: String } = "certify::switches",
-        format!("`{name}` switches: a bound on the time of a switch is not available"),
+    /// Something switches that is not covered; its name and the reason.
+    Switches { name: String, because: &'static str } = "certify::switches",
+        format!("`{name}` {because}: the time of its switches has no proven bound"),
         help "run it without --certify: `lptn verify` compares it with a finer run",
         class lptn_units::Class::No;
+    /// The interval of a switch is not proven; its control, the time in s and the reason.
+    SwitchTime { name: String, time: f64, because: &'static str } = "certify::switch_time",
+        format!(
+            "the switch of `{name}` near {} s has no proven time: {because}",
+            lptn_units::format_six(*time)
+        ),
+        help "choose a smaller tolerance, `--tolerance`, or run without --certify",
+        class lptn_units::Class::Numbers;
     /// A kind of node that is not covered: its name.
     Node { name: String, because: String } = "certify::node",
         format!("`{name}` {because}: its error has no proven bound"),
@@ -98,6 +111,8 @@ pub struct Certificate {
     pub(crate) most: Vec<f64>,
     /// Bounds on the results that follow from temperatures.
     pub(crate) results: ResultBounds,
+    /// For each switch of a control the times in s between which the exact solution switches.
+    pub(crate) switches: Vec<[f64; 2]>,
 }
 
 /// Follows a run and bounds its errors.
@@ -117,17 +132,19 @@ impl<'a> Certifier<'a> {
         is_covered(system)?;
         let from = (rows.time(0), tolerance);
         let begin = (rows, results, start);
+        let switches = system.network().has_events();
         Ok(match method {
+            Method::OneStep if switches => return Err(of_one_step(system)),
             Method::OneStep => Self::Series(Box::new(SeriesCertifier::new(system, begin, from)?)),
             _ => Self::Pieces(Box::new(Pieces::new(system, begin, from)?)),
         })
     }
 
-    /// Takes a part of the last step of an integrator.
+    /// Takes a part of the last step of an integrator, with these states of the controls.
     pub(crate) fn step<S: OdeSystem>(
         &mut self,
         part: (f64, f64),
-        segment: Segment,
+        (segment, controls): (Segment, &[ControlState]),
         integrator: &mut (dyn Integrator<S> + '_),
     ) -> Result<(), Uncertified> {
         match self {
@@ -137,7 +154,7 @@ impl<'a> Certifier<'a> {
             },
             Self::Pieces(certifier) => {
                 let state_at = &mut |time: f64, y: &mut [f64]| integrator.interpolate(time, y);
-                certifier.step((part, segment.inside()), state_at)
+                certifier.step((part, segment.inside()), controls, state_at)
             }
         }
     }
@@ -158,17 +175,22 @@ fn no_samples(network: &Network) -> Result<(), Uncertified> {
         .map_or(Ok(()), |name| Err(Uncertified::Node { name, because: "is sampled".to_owned() }))
 }
 
+/// The reason if controls switch during the one-step method, whose series have no pieces.
+fn of_one_step(system: &ThermalSystem) -> Uncertified {
+    let network = system.network();
+    let control = network.control_ids().next().map(Item::Control);
+    let name = control.map_or_else(String::new, |item| network.name_of(item).into_owned());
+    Uncertified::Switches { name, because: "switches during the one-step method" }
+}
+
 /// Refuses the parts of a network that have no bounds.
 fn is_covered(system: &ThermalSystem) -> Result<(), Uncertified> {
     let network = system.network();
     let name = |id: NodeId| network.nodes()[id.index()].name.clone();
-    if let Some(id) = network.control_ids().next() {
-        let name = network.name_of(Item::Control(id)).into_owned();
-        return Err(Uncertified::Switches { name });
-    }
     if let Some(id) = network.switch_ids().next() {
         let (item, _) = network.place_of_switch(id);
-        return Err(Uncertified::Switches { name: network.name_of(item).into_owned() });
+        let name = network.name_of(item).into_owned();
+        return Err(Uncertified::Switches { name, because: "compares temperatures" });
     }
     let node = |id: NodeId, because: &str| {
         Err(Uncertified::Node { name: name(id), because: because.to_owned() })

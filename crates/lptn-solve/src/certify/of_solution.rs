@@ -43,6 +43,13 @@ impl Solution {
         Some(most + ROUNDING * hottest)
     }
 
+    /// For each switch of a control, in their order, the times in s between which the exact solution
+    /// switches; `None` if they are not proven. A control that switches at the start is not among
+    /// them.
+    pub fn proven_switches(&self) -> Option<&[[f64; 2]]> {
+        Some(&self.certificate.as_ref()?.as_ref().ok()?.switches)
+    }
+
     fn result_bounds(&self) -> Option<&ResultBounds> {
         Some(&self.certificate.as_ref()?.as_ref().ok()?.results)
     }

@@ -1,19 +1,25 @@
 //! Proven bounds for any integrator: pieces of a run, each with its polynomials.
 
+mod window;
+mod written;
+
 use lptn_assembly::ThermalSystem;
 use lptn_integrate::Pattern;
-use lptn_network::{Evaluation, Item};
+use lptn_network::{ControlId, Evaluation, InputBounds, Item, Positions};
 use lptn_units::Taylor;
 
 use super::bound::{Bound, Line};
 use super::collocation::Collocation;
 use super::course::{Course, StateAt};
 use super::defect::{Largest, rest};
+use super::gates::{GRAZES, Gates, TOGETHER, Tube};
 use super::results::Results;
 use super::rows::Rows;
 use super::way::{self, SAMPLES, Way};
 use super::{Certificate, ROUNDING, Uncertified};
+use crate::events::ControlState;
 use crate::readings::pieces;
+use window::Switches;
 
 /// Times that a tube around the way is widened before the step counts as lost.
 const WIDENED: usize = 24;
@@ -26,6 +32,9 @@ const SHARE: f64 = 5e-3;
 
 /// A sweep over the samples that corrects less than this share of that is the last one.
 const ENOUGH: f64 = 0.1;
+
+/// After a switch a piece may add this share of the largest bound.
+const PASSES: f64 = 0.1;
 
 /// A piece that adds less than this share of that lets the next ones be longer.
 const LITTLE: f64 = 0.1;
@@ -63,6 +72,7 @@ pub(crate) struct Pieces<'a> {
     arrived: Vec<f64>,
     samples: [Vec<f64>; SAMPLES],
     way: Way<SAMPLES>,
+    switches: Switches<'a>,
 }
 
 impl<'a> Pieces<'a> {
@@ -100,20 +110,23 @@ impl<'a> Pieces<'a> {
             arrived: start.to_vec(),
             samples: std::array::from_fn(|_| start.to_vec()),
             way: Way::default(),
+            switches: Switches::new(Gates::new(system)),
         })
     }
 
     /// Takes the part of a step from `from` to `to` in s, with comparisons of time as they are at
-    /// `inside`. Pieces end at the bends and jumps of results.
+    /// `inside`, and controls in these states. Pieces end at the bends and jumps of results.
     pub(super) fn step(
         &mut self,
         (span, inside): ((f64, f64), f64),
+        controls: &[ControlState],
         state_at: &mut StateAt<'_>,
     ) -> Result<(), Uncertified> {
+        self.follow((span.0, inside), controls)?;
         let breaks = self.results.as_ref().map_or(&[][..], Results::breaks);
         for (part, begins) in pieces(breaks, span) {
             if begins {
-                self.flush()?;
+                self.flush_all(part.0)?;
             }
             self.part((part, inside), state_at)?;
         }
@@ -125,60 +138,130 @@ impl<'a> Pieces<'a> {
         ((from, to), inside): ((f64, f64), f64),
         state_at: &mut StateAt<'_>,
     ) -> Result<(), Uncertified> {
+        self.close_window()?;
+        if inside.to_bits() != self.inside.to_bits() {
+            self.flush_all(from)?;
+            self.switches.entered = from;
+        }
         let (begun, _) = self.course.span().unwrap_or((from, to));
         let is_long = to - begun > self.length || self.course.is_full();
-        if inside.to_bits() != self.inside.to_bits() || is_long {
+        if is_long && self.switches.open().is_none() {
             self.flush()?;
+        }
+        if self.course.is_full() {
+            self.switches.clear(from, GRAZES)?;
         }
         self.inside = inside;
         self.course.add((from, to), state_at).map_err(|_| Uncertified::Lost { time: from })
     }
 
-    /// Bounds the errors over all steps that are known.
+    /// Bounds the errors over all steps before a time in s.
+    fn flush_all(&mut self, time: f64) -> Result<(), Uncertified> {
+        self.close_window()?;
+        if self.switches.open().is_none() {
+            self.flush()?;
+        }
+        self.switches.clear(time, TOGETHER)
+    }
+
+    /// Bounds the errors over all steps that are known, up to a time from which on something may
+    /// switch.
     fn flush(&mut self) -> Result<(), Uncertified> {
         let Some((from, to)) = self.course.span() else { return Ok(()) };
+        if from >= to {
+            return Ok(());
+        }
         let before = self.length;
         self.length = to - from;
-        self.piece((from, to), 0)?;
+        let reached = self.piece((from, to), 0)?;
         let halved = self.length < to - from;
         self.length = if halved { self.length } else { self.length.max(before) };
-        self.course.clear();
+        self.course.forget_before(reached);
         Ok(())
     }
 
-    /// A piece, which is halved until its own share of the bounds is small.
-    fn piece(&mut self, (from, to): (f64, f64), halvings: usize) -> Result<(), Uncertified> {
+    /// A piece, which is halved until its own share of the bounds is small; gives the time in s up
+    /// to which nothing switches.
+    fn piece(&mut self, (from, to): (f64, f64), halvings: usize) -> Result<f64, Uncertified> {
         let found = self.over((from, to));
         let adds = found.as_ref().map_or(f64::INFINITY, Line::adds);
         let middle = 0.5 * (from + to);
         let halves = halvings < HALVINGS && from < middle && middle < to;
-        if halves && (adds.is_nan() || adds > self.allowed) {
+        if halves && (adds.is_nan() || adds > self.allowed()) {
             self.length = 0.5 * (to - from);
-            self.piece((from, middle), halvings + 1)?;
-            return self.piece((middle, to), halvings + 1);
+            return self.both([from, middle, to], halvings + 1);
         }
         let line = found?;
+        if let Some((id, time)) = self.may_switch((from, to), &line)? {
+            self.bound.set(line.start().to_vec());
+            if time <= from || time >= to || halvings >= 2 * HALVINGS {
+                self.switches.held = Some(id);
+                return Ok(from);
+            }
+            return self.both([from, time, to], halvings + 1);
+        }
         if adds <= LITTLE * self.allowed && halvings == 0 {
             self.length *= LONGER;
         }
-        self.write_rows((from, to), &line);
-        if let Some(results) = &mut self.results {
-            results.take(&mut self.scope, (from, to), (&self.way, &line.most()));
-        }
         self.bound.go(&line);
+        self.write((from, to), &[line], None);
+        self.arrive();
+        Ok(to)
+    }
+
+    /// The most in K that a piece may add to a bound. After a switch the bounds of some nodes pass
+    /// into others, however short the pieces are.
+    fn allowed(&self) -> f64 {
+        let passes = !self.switches.found.is_empty();
+        let largest = self.bound.now().iter().copied().fold(0.0, f64::max);
+        if passes { self.allowed.max(PASSES * largest) } else { self.allowed }
+    }
+
+    /// Two pieces, the second one unless something may switch in the first.
+    fn both(&mut self, [from, middle, to]: [f64; 3], halvings: usize) -> Result<f64, Uncertified> {
+        let reached = self.piece((from, middle), halvings)?;
+        if reached < middle { Ok(reached) } else { self.piece((middle, to), halvings) }
+    }
+
+    /// A control that may switch over a piece, and a time in s before which nothing does.
+    fn may_switch(
+        &mut self,
+        span: (f64, f64),
+        line: &Line,
+    ) -> Result<Option<(ControlId, f64)>, Uncertified> {
+        let most = line.most();
+        let tube = Tube { span, inside: self.inside, way: &self.way, most: &most };
+        self.switches.gates.first(&mut self.scope, &tube)
+    }
+
+    /// Goes to the end of the way.
+    fn arrive(&mut self) {
         let way = &self.way;
         self.arrived.iter_mut().enumerate().for_each(|(i, t)| *t = way.at(i, 1.0));
-        Ok(())
     }
 
     /// The way over a piece, and the bounds around it.
-    fn over(&mut self, (from, to): (f64, f64)) -> Result<Line, Uncertified> {
-        let lost = || Uncertified::Lost { time: from };
+    fn over(&mut self, span: (f64, f64)) -> Result<Line, Uncertified> {
+        let gaps = self.prepare(span)?;
+        let before = self.bound.now().to_vec();
+        self.bound.widen(gaps.into_iter());
+        let line = self.line(span, None);
+        if line.is_err() {
+            self.bound.set(before);
+        }
+        line
+    }
+
+    /// The way over a piece; gives the distances in K of its start from the end of the last one.
+    fn prepare(&mut self, (from, to): (f64, f64)) -> Result<Vec<f64>, Uncertified> {
         let half = 0.5 * (to - from);
         let times =
             way::places::<SAMPLES>().map(|place| (from + half * (1.0 + place)).clamp(from, to));
         for (sample, time) in self.samples.iter_mut().zip(times) {
-            self.course.write(time, sample);
+            match self.course.span() {
+                Some(_) => self.course.write(time, sample),
+                None => sample.copy_from_slice(&self.arrived),
+            }
         }
         // the way goes on as it arrived, and its distance from the integrator's solution lasts
         for (i, arrived) in self.arrived.iter().enumerate() {
@@ -188,21 +271,19 @@ impl<'a> Pieces<'a> {
         }
         let enough = ENOUGH * self.allowed;
         let corrected = self.collocation.correct((&times, self.inside), &mut self.samples, enough);
-        corrected.ok_or_else(lost)?;
+        corrected.ok_or(Uncertified::Lost { time: from })?;
         self.way.put(&self.samples, &self.basis);
-        let before = self.bound.now().to_vec();
         let way = &self.way;
-        let gaps = self.arrived.iter().enumerate().map(|(i, t)| (way.at(i, -1.0) - t).abs());
-        self.bound.widen(gaps);
-        let line = self.line((from, to));
-        if line.is_err() {
-            self.bound.set(before);
-        }
-        line
+        Ok(self.arrived.iter().enumerate().map(|(i, t)| (way.at(i, -1.0) - t).abs()).collect())
     }
 
-    /// The bounds over a piece: those that hold in a tube which they do not leave.
-    fn line(&mut self, (from, to): (f64, f64)) -> Result<Line, Uncertified> {
+    /// The bounds over a piece: those that hold in a tube which they do not leave. The exact
+    /// solution may have other positions than the way.
+    fn line(
+        &mut self,
+        (from, to): (f64, f64),
+        other: Option<&Positions>,
+    ) -> Result<Line, Uncertified> {
         let lost = || Uncertified::Lost { time: from };
         let whole: Vec<Taylor> =
             (0..self.arrived.len()).map(|unknown| self.way.whole(unknown)).collect();
@@ -214,24 +295,15 @@ impl<'a> Pieces<'a> {
         if !defect.iter().all(|defect| defect.is_finite()) {
             return Err(lost());
         }
-        if self.constant.is_some() {
+        if self.constant.is_some() && other.is_none() {
             self.round(&whole, &mut defect);
             return self.bound.over(to - from, &defect).ok_or_else(lost);
         }
-        let mut still = over.still();
         let mut widths: Vec<f64> =
             self.bound.now().iter().map(|w| (WIDER * w).max(LEAST_WIDTH)).collect();
         for _ in 0..WIDENED {
-            let ranges = whole.iter().map(|bounds| bounds.range().unwrap_or([f64::NAN; 2]));
-            let tube: Vec<[f64; 2]> =
-                ranges.zip(&widths).map(|([low, high], w)| [low - w, high + w]).collect();
-            let slopes = self.system.enclose_slopes(&mut still, &tube);
-            let slopes = slopes.map_err(|item| self.no_law(item, from))?;
-            let mut all = defect.clone();
-            all.iter_mut().zip(&slopes.jumps).for_each(|(all, jump)| *all += jump);
-            self.bound.set_matrix(&slopes.worst(self.system));
-            self.round(&whole, &mut all);
-            let line = self.bound.over(to - from, &all).ok_or_else(lost)?;
+            let line =
+                self.within(((from, to), &mut over.still()), (&whole, &widths, &defect), other)?;
             let reached: Vec<f64> = (0..widths.len()).map(line.most()).collect();
             if !reached.iter().all(|most| most.is_finite()) {
                 return Err(lost());
@@ -243,6 +315,29 @@ impl<'a> Pieces<'a> {
             widths = wider.map(|(most, width)| (WIDER * most).max(*width)).collect();
         }
         Err(lost())
+    }
+
+    /// The bounds over a piece as long as they stay inside a tube of these widths in K.
+    fn within(
+        &mut self,
+        (span, still): ((f64, f64), &mut InputBounds),
+        (whole, widths, defect): (&[Taylor], &[f64], &[f64]),
+        other: Option<&Positions>,
+    ) -> Result<Line, Uncertified> {
+        let ranges = whole.iter().map(|bounds| bounds.range().unwrap_or([f64::NAN; 2]));
+        let tube: Vec<[f64; 2]> =
+            ranges.zip(widths).map(|([low, high], w)| [low - w, high + w]).collect();
+        let slopes = self.system.enclose_slopes(still, &tube);
+        let slopes = slopes.map_err(|item| self.no_law(item, span.0))?;
+        let mut all = defect.to_vec();
+        all.iter_mut().zip(&slopes.jumps).for_each(|(all, jump)| *all += jump);
+        if let Some(other) = other {
+            let jumps = self.difference(span, &tube, other)?;
+            all.iter_mut().zip(jumps).for_each(|(all, jump)| *all += jump);
+        }
+        self.bound.set_matrix(&slopes.worst(self.system));
+        self.round(whole, &mut all);
+        self.bound.over(span.1 - span.0, &all).ok_or(Uncertified::Lost { time: span.0 })
     }
 
     /// Adds the largest defect of each unknown in W over a piece, as far as it is a polynomial.
@@ -264,48 +359,19 @@ impl<'a> Pieces<'a> {
         self.bound.add_sizes(ROUNDING, sizes, defect);
     }
 
-    /// Writes the bounds of the rows up to the end of a piece, and of the run so far.
-    fn write_rows(&mut self, (from, to): (f64, f64), line: &Line) {
-        let way = &self.way;
-        let place = |time: f64| (2.0 * (time - from) / (to - from) - 1.0).clamp(-1.0, 1.0);
-        let mut far = vec![0.0_f64; self.rows.asked()];
-        let largest = &self.largest;
-        for part in self.course.steps().iter().filter(|part| part.from < to && part.to > from) {
-            let (first, last) = (part.from.max(from), part.to.min(to));
-            let times = way::places::<SAMPLES>().map(|s| first + 0.5 * (1.0 + s) * (last - first));
-            self.rows.for_each_unknown(|node, i| {
-                let apart = times.map(|time| part.at(i, time) - way.at(i, place(time)));
-                let most = apart.iter().fold(0.0_f64, |most, apart| most.max(apart.abs()));
-                // most steps add nothing to the largest one
-                if 2.21 * most > far[node] {
-                    far[node] = far[node].max(largest.of(&apart));
-                }
-            });
-        }
-        let most = line.most();
-        self.rows.note(most, &far);
-        for row in self.rows.up_to(to) {
-            let time = self.rows.time(row).max(from);
-            let (part, line) = (self.course.step_at(time), line.at(time - from));
-            let apart = |i: usize| part.at(i, time) - way.at(i, place(time));
-            self.rows.push(apart);
-            self.rows.add(row, &line);
-            if let Some(results) = &mut self.results {
-                let state: Vec<f64> = (0..way.len()).map(|i| part.at(i, time)).collect();
-                let bounds: Vec<f64> = (0..way.len()).map(|i| line(i) + apart(i).abs()).collect();
-                results.row(&mut self.scope, time, (&state, &bounds));
-            }
-        }
-    }
-
     fn no_law(&self, item: Item, time: f64) -> Uncertified {
         Uncertified::Law { name: self.system.network().name_of(item).into_owned(), time }
     }
 
     pub(super) fn finish(mut self) -> Result<Certificate, Uncertified> {
-        self.flush()?;
+        self.close_window()?;
+        if self.switches.open().is_none() {
+            self.flush()?;
+        }
+        self.last_window()?;
+        let switches = std::mem::take(&mut self.switches.found);
         let results = self.results.map(Results::into_found).unwrap_or_default();
-        Ok(Certificate { results, ..self.rows.into_certificate() })
+        Ok(Certificate { results, switches, ..self.rows.into_certificate() })
     }
 }
 

@@ -7,7 +7,7 @@
 //! are enclosed too, between the rows as at them.
 
 use lptn_assembly::ThermalSystem;
-use lptn_network::{Evaluation, HeatOf, History, InputBounds, LimitId, Network, NodeId};
+use lptn_network::{ControlId, Evaluation, HeatOf, History, InputBounds, LimitId, Network, NodeId};
 use lptn_units::Taylor;
 
 use super::ROUNDING;
@@ -170,22 +170,21 @@ impl<'a> Results<'a> {
         self.readings.inner()
     }
 
-    /// Takes in a part of a step.
+    /// Takes in a part of a step, in which a control may have either state if one is given.
     pub(super) fn take(
         &mut self,
         scope: &mut Evaluation,
         (from, to): (f64, f64),
         (way, bound): (&Way<SAMPLES>, &dyn Fn(usize) -> f64),
+        open: Option<ControlId>,
     ) {
         self.found.span = Some((self.found.span.map_or(from, |(start, _)| start), to));
         let network = self.system.network();
-        let [over, at] = network.input_bounds(scope, (from, to), self.readings.inside(from));
-        let wide = |i: usize, of: Taylor| {
-            let bound = bound(i) + ROUNDING * way.at(i, 1.0);
-            of + Taylor::between(&[[-bound, bound]])
-        };
-        let whole: Vec<Taylor> = (0..way.len()).map(|i| wide(i, way.whole(i))).collect();
-        let middle: Vec<Taylor> = (0..way.len()).map(|i| wide(i, way.middle(i))).collect();
+        let mut inputs = network.input_bounds(scope, (from, to), self.readings.inside(from));
+        let loosen =
+            |inputs: &mut InputBounds| open.iter().for_each(|id| network.loosen(inputs, *id));
+        inputs.iter_mut().for_each(loosen);
+        let ([over, at], [whole, middle]) = (inputs, way.tube(bound));
         let placed = self.place(over, &whole).zip(self.place(at, &middle));
         let Some((mut over, mut at)) = placed else {
             self.found.followed.iter_mut().for_each(|(_, seen)| *seen = None);
@@ -205,14 +204,15 @@ impl<'a> Results<'a> {
     pub(super) fn row(
         &mut self,
         scope: &mut Evaluation,
-        time: f64,
+        (time, open): (f64, Option<ControlId>),
         (state, bounds): (&[f64], &[f64]),
     ) {
         if self.found.columns.is_empty() {
             return;
         }
         let network = self.system.network();
-        let [inputs, _] = network.input_bounds(scope, (time, time), self.readings.inside(time));
+        let [mut inputs, _] = network.input_bounds(scope, (time, time), self.readings.inside(time));
+        open.iter().for_each(|id| network.loosen(&mut inputs, *id));
         let wide = |(t, bound): (&f64, &f64)| {
             let bound = bound + ROUNDING * t;
             Taylor::between(&[[t - bound, t + bound]])

@@ -8,6 +8,8 @@ use std::f64::consts::PI;
 
 use lptn_units::Taylor;
 
+use super::ROUNDING;
+
 /// Samples of a step: the polynomials have one degree less.
 pub(super) const SAMPLES: usize = 8;
 
@@ -59,6 +61,16 @@ impl<const N: usize> Way<N> {
         }
     }
 
+    /// Takes constant temperatures in K.
+    pub(super) fn put_still(&mut self, state: &[f64]) {
+        self.coefficients.clear();
+        self.coefficients.extend(state.iter().map(|t| {
+            let mut of = [0.0; N];
+            of[0] = *t;
+            of
+        }));
+    }
+
     /// Number of unknowns.
     pub(super) fn len(&self) -> usize {
         self.coefficients.len()
@@ -78,6 +90,17 @@ impl<const N: usize> Way<N> {
     /// The Taylor coefficients of an unknown in the middle of the step.
     pub(super) fn middle(&self, unknown: usize) -> Taylor {
         Taylor::between(&self.coefficients[unknown].map(|c| [c, c]))
+    }
+
+    /// Bounds on all unknowns and their Taylor coefficients, over the whole step and in its middle,
+    /// while each differs from its polynomial by at most these numbers in K.
+    pub(super) fn tube(&self, bound: &dyn Fn(usize) -> f64) -> [Vec<Taylor>; 2] {
+        let wide = |i: usize, of: Taylor| {
+            let bound = bound(i) + ROUNDING * self.at(i, 1.0);
+            of + Taylor::between(&[[-bound, bound]])
+        };
+        let whole = (0..self.len()).map(|i| wide(i, self.whole(i))).collect();
+        [whole, (0..self.len()).map(|i| wide(i, self.middle(i))).collect()]
     }
 
     /// Bounds on an unknown and its Taylor coefficients over the whole step.

@@ -1,16 +1,35 @@
 //! Switches inside a step, and the bounds of its errors.
 
+use lptn_assembly::ThermalSystem;
 use lptn_integrate::Step;
+use lptn_network::IntegratorChoice;
 
 use super::{Break, Run};
-use crate::events::{Trouble, find_crossings};
+use crate::events::{Switching, Trouble, find_crossings};
+use crate::settings::Transient;
 use crate::times::Segment;
+
+impl Transient {
+    /// The integrator: pieces of the run prove the times of switches, and the one-step method has
+    /// none.
+    pub(super) fn integrator_for(&self, system: &ThermalSystem) -> IntegratorChoice {
+        let switches = self.certify && system.network().has_events();
+        match self.integrator {
+            IntegratorChoice::Auto if switches && cfg!(feature = "cvodes") => {
+                IntegratorChoice::Cvode
+            }
+            choice => choice,
+        }
+    }
+}
 
 impl Run<'_> {
     /// Bounds the errors over a part of a step.
     pub(super) fn bound_errors(&mut self, part: (f64, f64), segment: Segment) {
         let Some(Ok(certifier)) = &mut self.certifier else { return };
-        if let Err(reason) = certifier.step(part, segment, self.integrator.as_mut()) {
+        let controls = self.switching.as_ref().map_or_else(Vec::new, Switching::controls);
+        let now = (segment, &controls[..]);
+        if let Err(reason) = certifier.step(part, now, self.integrator.as_mut()) {
             self.certifier = Some(Err(reason));
         }
     }
