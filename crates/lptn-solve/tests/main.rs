@@ -12,6 +12,7 @@ mod balance;
 mod between_kinks;
 mod beyond_tables;
 mod certificate;
+mod certified_cycles;
 mod common;
 mod cycles;
 mod elements;

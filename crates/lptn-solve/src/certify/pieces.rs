@@ -48,6 +48,8 @@ pub(crate) struct Pieces<'a> {
     largest: Largest<SAMPLES>,
     /// The most in K that a piece may add to a bound without being halved.
     allowed: f64,
+    /// The most in K that a piece may add in addition, from the bounds at the start.
+    moves: f64,
     bound: Bound,
     rows: Rows<'a>,
     /// Bounds on results, if they are asked for.
@@ -90,6 +92,7 @@ impl<'a> Pieces<'a> {
             collocation,
             largest: Largest::new(),
             allowed: SHARE * tolerance,
+            moves: 0.0,
             bound,
             rows,
             results,
@@ -101,6 +104,12 @@ impl<'a> Pieces<'a> {
             samples: std::array::from_fn(|_| start.to_vec()),
             way: Way::default(),
         })
+    }
+
+    pub(super) fn begin_within(&mut self, bounds: &[f64]) {
+        // differences at the start move from node to node
+        self.moves = SHARE * bounds.iter().copied().fold(0.0, f64::max);
+        self.bound.set(bounds.to_vec());
     }
 
     /// Takes the part of a step from `from` to `to` in s, with comparisons of time as they are at
@@ -152,13 +161,14 @@ impl<'a> Pieces<'a> {
         let adds = found.as_ref().map_or(f64::INFINITY, Line::adds);
         let middle = 0.5 * (from + to);
         let halves = halvings < HALVINGS && from < middle && middle < to;
-        if halves && (adds.is_nan() || adds > self.allowed) {
+        let allowed = self.allowed + self.moves;
+        if halves && (adds.is_nan() || adds > allowed) {
             self.length = 0.5 * (to - from);
             self.piece((from, middle), halvings + 1)?;
             return self.piece((middle, to), halvings + 1);
         }
         let line = found?;
-        if adds <= LITTLE * self.allowed && halvings == 0 {
+        if adds <= LITTLE * allowed && halvings == 0 {
             self.length *= LONGER;
         }
         self.write_rows((from, to), &line);
@@ -305,7 +315,8 @@ impl<'a> Pieces<'a> {
     pub(super) fn finish(mut self) -> Result<Certificate, Uncertified> {
         self.flush()?;
         let results = self.results.map(Results::into_found).unwrap_or_default();
-        Ok(Certificate { results, ..self.rows.into_certificate() })
+        let end = [self.arrived, self.bound.now().to_vec()];
+        Ok(Certificate { results, end, ..self.rows.into_certificate() })
     }
 }
 
