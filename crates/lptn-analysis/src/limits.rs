@@ -51,6 +51,12 @@ impl LimitResult {
         Ok(network.limit_ids().zip(margins).map(one).collect())
     }
 
+    /// The same with proven margins, one for each.
+    #[must_use]
+    pub fn with_proofs(results: Vec<Self>, proven: Vec<Option<ProvenMargin>>) -> Vec<Self> {
+        results.into_iter().zip(proven).map(|(result, proven)| Self { proven, ..result }).collect()
+    }
+
     /// True if it is neither kept nor broken, because it was not judged.
     pub fn is_open(&self) -> bool {
         self.margin.is_nan()

@@ -82,18 +82,37 @@ pub(crate) fn steady_members(network: &Network, bounds: &[f64]) -> Value {
 
 /// Meaning of the bounds, the verdicts that they prove, and the results that have none.
 pub(crate) fn notes(solution: &Solution, selection: &Selection) -> Vec<String> {
+    let meaning = "proven error: each temperature of the run is at most this far from the exact \
+        solution of the network, at every time";
+    let windows = solution.windows().iter().map(|window| format!("the window {}", window.name));
+    notes_of(solution, meaning, without(solution, selection).into_iter().chain(windows).collect())
+}
+
+/// The same for a periodic steady state; the reason is among its doubts.
+pub(crate) fn notes_of_cycle(solution: &Solution, selection: &Selection) -> Vec<String> {
+    if unproven(solution).is_some() {
+        return Vec::new();
+    }
+    let meaning = "proven error: a periodic steady state of the network exists, and each \
+        temperature is at most this far from it, at every time";
+    let mut notes = notes_of(solution, meaning, without(solution, selection));
+    notes.extend(is(solution).then(|| {
+        "means and extremes of heat flows, reports and signals have no proven error".to_owned()
+    }));
+    notes
+}
+
+fn notes_of(solution: &Solution, meaning: &str, without: Vec<String>) -> Vec<String> {
     if let Some(unproven) = unproven(solution) {
         return vec![unproven.message];
     }
     if !is(solution) {
         return Vec::new();
     }
-    let meaning = "proven error: each temperature of the run is at most this far from the exact \
-        solution of the network, at every time";
     let mut notes = vec![meaning.to_owned()];
     notes.extend(heat_note(solution));
-    notes.extend(verdicts(solution));
-    let without = without(solution, selection);
+    let limits: Vec<LimitResult> = solution.limits().iter().map(LimitResult::of_run).collect();
+    notes.extend(verdicts(solution.network(), &limits));
     notes.extend(
         (!without.is_empty())
             .then(|| format!("without a proven error: {}", list_of_names(&without))),
@@ -109,9 +128,7 @@ fn heat_note(solution: &Solution) -> Option<String> {
 }
 
 /// The limits whose verdicts are proven, and those that the bounds do not decide.
-fn verdicts(solution: &Solution) -> Vec<String> {
-    let network = solution.network();
-    let all: Vec<LimitResult> = solution.limits().iter().map(LimitResult::of_run).collect();
+pub(crate) fn verdicts(network: &Network, all: &[LimitResult]) -> Vec<String> {
     let names = |wanted: Option<bool>| -> Option<String> {
         let these = all.iter().filter(|found| !found.is_open() && found.is_proven() == wanted);
         let name = |found: &LimitResult| network.limits()[found.limit.index()].name.clone();
@@ -136,14 +153,7 @@ fn without(solution: &Solution, selection: &Selection) -> Vec<String> {
     let numbers = numbers.map(|seen| reports[seen.report.index()].name.clone());
     let heats = energies(solution).into_iter().filter(|(_, bound)| bound.is_none());
     let heats = heats.map(|(name, _)| format!("the heat of {name} over the run"));
-    let windows = solution.windows().iter().map(|window| format!("the window {}", window.name));
-    solution
-        .without_bounds(selection)
-        .into_iter()
-        .chain(numbers)
-        .chain(heats)
-        .chain(windows)
-        .collect()
+    solution.without_bounds(selection).into_iter().chain(numbers).chain(heats).collect()
 }
 
 /// The bounds of all recorded nodes over the run, in K.

@@ -80,3 +80,69 @@ fn a_steady_state_is_proven() {
     let value = found["values"]["body.T"]["value"].as_f64().unwrap();
     assert!((value - 22.0).abs() <= error && error < 1e-9, "{value} {error}");
 }
+
+/// 1000 J/K and 0.5 W/K with 100 W for 300 s of every 1000 s.
+const REPEATS: &str = r#"format = 1
+[signal]
+duty = { t = ["0 s", "300 s"], v = [1, 0], interp = "previous", after_end = "repeat", period = "1000 s" }
+[node]
+body = { C = "1000 J/K", T0 = "20 degC" }
+[boundary]
+air = { T = "20 degC" }
+[resistor]
+skin = { from = "body", to = "air", G = "0.5 W/K" }
+[source]
+heat = { into = "body", P = "100 [W] * duty" }
+[limit]
+hot = { of = "body.T", below = "91.38 degC" }
+near = { of = "body.T", below = "91.379 degC" }
+[run]
+stop = "1000 s"
+"#;
+
+/// `T = air + X exp(-t/tau)` from the end of the heat on, `X = 200 K (1 - exp(-300/2000)) /
+/// (1 - exp(-1000/2000))`: at most 90.8045 degC.
+#[test]
+fn a_periodic_steady_state_is_proven() {
+    let x = 200.0 * (1.0 - (-0.15_f64).exp()) / (1.0 - (-0.5_f64).exp());
+    let (most, least) = (20.0 + x, 20.0 + x * (-0.35_f64).exp());
+    let text = REPEATS.replace("91.38 ", &format!("{} ", most + 1e-4));
+    let folder = Folder::with("net.toml", &text.replace("91.379 ", &format!("{} ", most - 1e-4)));
+    let asked = "steady net.toml --periodic --certify";
+    for tolerance in ["1e-3K", "1e-5K", "1e-7K"] {
+        let found = folder.json(&format!("{asked} --tolerance {tolerance}")).json();
+        let error = found["proven"]["body"]["value"].as_f64().unwrap();
+        let of = |key: &str| found["columns"]["body.T"][key]["value"].as_f64().unwrap();
+        for (key, right) in [("start", least), ("min", least), ("max", most)] {
+            assert!((of(key) - right).abs() <= error + 1e-11, "{tolerance}: {key} {error}");
+        }
+        assert!(error < 1e-3, "{error}");
+        for (name, right) in [("hot", 1e-4), ("near", -1e-4)] {
+            let limit = &found["limits"][name];
+            let margin = limit["margin"]["value"].as_f64().unwrap();
+            let bound = limit["margin_bound"]["value"].as_f64().unwrap();
+            assert!((margin - right).abs() <= bound + 1e-11, "{tolerance}: {name} {limit}");
+        }
+    }
+    let text = folder.run(&asked.split(' ').collect::<Vec<_>>()).out;
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains("proven verdicts: `hot` and `near`"), "{text}");
+    assert!(text.contains("a periodic steady state of the network exists"), "{text}");
+}
+
+/// A thermostat: the reason is a warning, and the results are the same.
+#[test]
+fn a_cycle_without_proof_says_why() {
+    let text = REPEATS.replace(
+        "[source]\nheat = { into = \"body\", P = \"100 [W] * duty\" }",
+        "[control]\nheater = { sense = \"body\", on_below = \"21 degC\", off_above = \"22 degC\" }\n\
+         [source]\nheat = { into = \"body\", P = \"100 [W] * duty * heater\" }",
+    );
+    let folder = Folder::with("net.toml", &text);
+    let ran =
+        folder.run(&["steady", "net.toml", "--periodic", "--certify", "--tolerance", "1e-3K"]);
+    if ran.out.is_empty() {
+        return; // no cycle is found
+    }
+    assert!(ran.err.contains("certify::switches"), "{}", ran.err);
+}

@@ -68,6 +68,7 @@ fn the_library_answers_with_the_bytes_of_the_program() {
         format: Format::Json,
         report: false,
         detail: Detail::Brief,
+        certify: false,
     };
     let cycle = cycle.ask(input("duty_cycle.toml"), &Nobody).unwrap();
     same("steady networks/duty_cycle.toml --periodic --format json", &cycle, Format::Json);

@@ -14,6 +14,7 @@ mod browser;
 mod carried_on;
 mod case_signals;
 mod cases;
+mod certified_answers;
 mod certify;
 mod commands_page;
 mod common;

@@ -61,13 +61,13 @@ pub(crate) fn steady(asked: &Asked<'_>, words: &Words) -> Outcome {
     let [period, tolerance] = ["period", "tolerance"].map(|name| words.text(name));
     let (format, detail) = (Format::Json, Detail::Brief);
     let input = asked.input(words)?;
+    let certify = words.flag("certify");
     if !words.flag("periodic") {
         if period.is_some() || tolerance.is_some() {
             return Err(Trouble::of_type(
                 "`period` and `tolerance` need `periodic`: write periodic=True".to_owned(),
             ));
         }
-        let certify = words.flag("certify");
         let question =
             SteadyQuestion { select, temperature_unit, balance, format, detail, certify };
         return Ok(Box::new(question.ask(input, asked.listener)?));
@@ -82,6 +82,7 @@ pub(crate) fn steady(asked: &Asked<'_>, words: &Words) -> Outcome {
         format,
         report,
         detail,
+        certify,
     };
     Ok(Box::new(question.ask(input, asked.listener)?))
 }
@@ -125,8 +126,12 @@ pub(crate) fn compare(asked: &Asked<'_>, words: &Words) -> Outcome {
 }
 
 pub(crate) fn size(asked: &Asked<'_>, words: &Words) -> Outcome {
-    let question =
-        SizeQuestion { name: words.text("name"), threads: words.count("threads")?, writes: false };
+    let question = SizeQuestion {
+        name: words.text("name"),
+        threads: words.count("threads")?,
+        writes: false,
+        certify: words.flag("certify"),
+    };
     Ok(Box::new(question.ask(asked.input(words)?, asked.listener)?))
 }
 

@@ -103,6 +103,7 @@ verbs! {
     Network "size" size "Find the value that keeps the limits", sets true, first Some("name"); {
         name Text "the study, [size.NAME]";
         posterior Text "file of a fit with values and covariance";
+        certify Flag "bound the margins of the answer, with proof";
         threads Count "number of threads";
     }
     Nothing "size" cooling "Find the flow that removes a heat", sets false, first None; {

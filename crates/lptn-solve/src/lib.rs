@@ -140,7 +140,7 @@ pub use sensitive_run::{
     Gradient, MarginError, SensitiveError, SensitiveRun, can_move, sensitive_run,
     sensitive_run_observed,
 };
-pub use settings::{Proceed, Progress, Transient};
+pub use settings::{Around, Proceed, Progress, Transient};
 pub use settings_error::SettingsError;
 pub use several::Others;
 pub use sides::{on_both_sides, own_side};

@@ -164,7 +164,13 @@ impl<'a> Recorder<'a> {
             Results::new(self.system, (&self.recorded, columns), self.readings.clone())
         });
         let rows = Rows::new(self.system, &self.recorded, &self.rows);
-        Certifier::new(self.system, method, (rows, results), (state, self.tolerance))
+        let around = settings.around.as_ref();
+        let tolerance = around.map_or(1.0, |around| around.share) * self.tolerance;
+        let state = around.map_or(state, |around| &around.centre);
+        let mut certifier =
+            Certifier::new(self.system, method, (rows, results), (state, tolerance))?;
+        around.iter().for_each(|around| certifier.begin_within(&around.bounds));
+        Ok(certifier)
     }
 
     pub(crate) fn system(&self) -> &'a ThermalSystem {

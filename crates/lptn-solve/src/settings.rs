@@ -55,10 +55,23 @@ pub struct Transient {
     pub certify: bool,
     /// The columns other than temperatures of nodes whose rows get bounds too.
     pub certified: Option<Selection>,
+    /// The starts of the exact solutions that the proven bounds take in; `None` for that of the run.
+    pub around: Option<Around>,
     /// The integrator; default: chosen by the network.
     pub integrator: IntegratorChoice,
     /// The linear solver; default: chosen by size.
     pub linear_solver: LinearSolver,
+}
+
+/// Starts of exact solutions near that of a run.
+#[derive(Clone, Debug)]
+pub struct Around {
+    /// A state, in K.
+    pub centre: Vec<f64>,
+    /// Bounds in K on the distance of each start from it.
+    pub bounds: Vec<f64>,
+    /// The proven bounds of the run add less than those of a run with this share of its tolerance.
+    pub share: f64,
 }
 
 /// Progress of a run.
@@ -100,6 +113,7 @@ impl Transient {
             sensitivities: Vec::new(),
             certify: false,
             certified: None,
+            around: None,
             integrator: IntegratorChoice::Auto,
             linear_solver: LinearSolver::Auto,
         }

@@ -17,7 +17,7 @@ use lptn_network::{Network, Time};
 use lptn_solve::{ExactSolution, Solution, SteadyState, Transient};
 
 /// `LPTN_CERTIFIED` asks for more networks than the usual ones.
-fn count(usual: u64) -> u64 {
+pub fn count(usual: u64) -> u64 {
     std::env::var("LPTN_CERTIFIED").map_or(usual, |text| text.parse().unwrap())
 }
 
@@ -29,7 +29,7 @@ fn certified(network: &Network, tolerance: f64, stop: f64) -> Solution {
 
 /// Checks the bounds against right temperatures with an error of their own in K, and collects bound
 /// over error, if the error can be told from that of the right temperatures.
-fn check(
+pub fn check(
     found: &Solution,
     right: &dyn Fn(usize, usize) -> f64,
     own: &dyn Fn(usize) -> f64,
@@ -53,7 +53,7 @@ fn check(
 }
 
 /// Median and 95th percentile.
-fn spread(ratios: &mut [f64]) -> (f64, f64) {
+pub fn spread(ratios: &mut [f64]) -> (f64, f64) {
     ratios.sort_by(f64::total_cmp);
     (ratios[ratios.len() / 2], ratios[ratios.len() * 95 / 100])
 }
@@ -111,17 +111,17 @@ enum Law {
 
 /// A random network: capacities in J/K, paths, and for each node a heat in W and its change with
 /// the temperature of a node in W/K.
-struct Written {
-    capacities: Vec<f64>,
+pub struct Written {
+    pub capacities: Vec<f64>,
     links: Vec<Link>,
-    heats: Vec<(f64, f64, usize)>,
+    pub heats: Vec<(f64, f64, usize)>,
 }
 
-const AIR: f64 = 293.15;
+pub const AIR: f64 = 293.15;
 const SIGMA: f64 = 5.670_374_419e-8;
 
 impl Written {
-    fn new(seed: u64) -> Self {
+    pub fn new(seed: u64) -> Self {
         // the generator of Knuth's MMIX (The Art of Computer Programming 2, 3.3.4)
         let mut state = seed.wrapping_add(17);
         let mut next = move |from: f64, to: f64| {
@@ -152,7 +152,7 @@ impl Written {
         Self { capacities, links, heats }
     }
 
-    fn text(&self) -> String {
+    pub fn text(&self) -> String {
         let mut text = String::from("format = 1\n[boundary]\nair = { T = \"20 degC\" }\n[node]\n");
         let end = |to: Option<usize>| to.map_or("air".to_owned(), |to| format!("n{to}"));
         for (i, c) in self.capacities.iter().enumerate() {
@@ -191,7 +191,7 @@ impl Written {
     }
 
     /// Change of each temperature in K/s.
-    fn slopes(&self, t: &[f64]) -> Vec<f64> {
+    pub fn slopes(&self, t: &[f64]) -> Vec<f64> {
         let mut heat: Vec<f64> =
             self.heats.iter().map(|(heat, slope, of)| heat + slope * (t[*of] - AIR)).collect();
         for link in &self.links {
@@ -258,7 +258,7 @@ impl Written {
 }
 
 /// Gauss's elimination with pivots.
-fn solved(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
+pub fn solved(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
     let n = b.len();
     for k in 0..n {
         let pivot = (k..n).max_by(|i, j| a[*i][k].abs().total_cmp(&a[*j][k].abs())).unwrap();

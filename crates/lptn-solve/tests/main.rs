@@ -12,6 +12,7 @@ mod balance;
 mod between_kinks;
 mod beyond_tables;
 mod certificate;
+mod certified_cycles;
 mod certified_switches;
 mod common;
 mod cycles;

@@ -24,7 +24,7 @@ use crate::listener::{Listener, Stopwatch, timed};
 use crate::lumping::Detail;
 use crate::refused::{explain, unanswered};
 use crate::run::{NoSteady, RunAnswer, RunTask, record};
-use crate::{balance, period, scale, select, trust};
+use crate::{balance, period, proven, scale, select, trust};
 
 /// The name of the window over the cycle.
 const CYCLE: &str = "cycle";
@@ -51,6 +51,8 @@ pub struct CycleQuestion {
     pub report: bool,
     /// Amount of detail in a table.
     pub detail: Detail,
+    /// True if errors are bounded with proof.
+    pub certify: bool,
 }
 
 /// A settled cycle that is ready to be searched.
@@ -100,7 +102,7 @@ impl CycleQuestion {
             picture: true,
             detail: self.detail,
             uncertainty: None,
-            certify: false,
+            certify: self.certify,
             input,
         }))
     }
@@ -141,7 +143,11 @@ impl CycleTask {
         let solution = Trusted { result: found.solution.clone(), trust: found.trust };
         let run = RunAnswer {
             lumping: Lumping::of_run(&solution),
-            table: Table::of_solution(&solution, &task.selection, &task.unit),
+            table: Table::of_solution(&solution, &task.selection, &task.unit).with_bounds(
+                &solution,
+                &task.selection,
+                &task.unit,
+            ),
             task,
             steady: Err(NoSteady::Inputs),
             solution,
@@ -165,6 +171,10 @@ fn find(
         .over(vec![window])
         .drawing(task.selection.clone())
         .balancing(task.balance);
+    let cycle = match task.certify {
+        true => cycle.certified(task.selection.clone()),
+        false => cycle,
+    };
     listener.begin();
     let found = cycle.cycle(system, &mut |progress| listener.progress(progress));
     found.map_err(|error| match error {
@@ -283,8 +293,18 @@ impl CycleAnswer {
         })
     }
 
-    /// Doubts in the numbers, which no table shows.
+    /// Doubts in the numbers.
     pub fn beside(&self) -> Vec<Diagnostic> {
-        trust::doubts(&self.run.task.input.netlist, &self.run.solution.trust, true)
+        let doubts = trust::doubts(&self.run.task.input.netlist, &self.run.solution.trust, true);
+        proven::unproven(&self.found.solution).into_iter().chain(doubts).collect()
+    }
+
+    /// A proven bound in K on the error of a column of temperatures at all times, and on those of
+    /// its extremes; `None` if there is none.
+    fn bound(&self, seen: &ColumnSeen) -> Option<f64> {
+        let solution = &self.found.solution;
+        let id = solution.network().node(seen.name.strip_suffix(".T")?).ok()?;
+        let extremes = solution.extreme_bound(id, [seen.min.0, seen.max.0])?;
+        Some(solution.largest_bound(id)?.max(extremes))
     }
 }

@@ -4,7 +4,8 @@ use std::io;
 
 use lptn_plot::Figure;
 use lptn_report::{
-    Json, Page, Report, Rows, Text, TextTable, decimals, duration, fixed, prefix, significant,
+    Json, Page, Report, Rows, Text, TextTable, decimals, duration, fixed, prefix, rounded_up,
+    significant,
 };
 use lptn_solve::{ColumnSeen, CycleMethod};
 use lptn_study::{SiValue, StatisticsRecord};
@@ -14,7 +15,7 @@ use super::CycleAnswer;
 use crate::balance;
 use crate::run::page::heat_over;
 use crate::words::{count, difference, largest, some_of, symbol};
-use crate::{families, limits, over_time};
+use crate::{families, limits, over_time, proven};
 
 /// A column with its first value, in SI.
 type Row<'a> = (&'a ColumnSeen, f64);
@@ -82,6 +83,8 @@ impl Page for CycleAnswer {
         json.member("search", &self.search())?;
         json.member("ledger", &self.run.ledger())?;
         let (network, unit) = (solution.network(), &self.run.task.unit);
+        json.optional("proven", proven::members(solution))?;
+        json.optional("proven_heat", proven::heat_members(solution))?;
         json.optional("limits", limits::members(network, &self.run.limits(), unit))?;
         let reports = over_time::members(network, solution.reports_over_time(), unit);
         json.optional("reports", reports)?;
@@ -118,6 +121,14 @@ fn temperature_section(text: &mut Text, view: &CycleAnswer, rows: Vec<Row<'_>>) 
         .right(format!("swing [{}]", difference(unit)), |row| {
             significant(clear(swing(row.item.0)) / unit.scale, 3)
         });
+    let bound = |row: &families::Row<Row<'_>>| {
+        let all: Vec<f64> = row.all().filter_map(|(column, _)| view.bound(column)).collect();
+        all.into_iter().max_by(f64::total_cmp).map_or_else(String::new, rounded_up)
+    };
+    let table = match proven::is(&view.found.solution) {
+        true => table.right("proven error [K]", bound),
+        false => table,
+    };
     some_of(text, table, (all, "the hottest first; --select 'NAME.T' shows others"));
 }
 
@@ -184,6 +195,9 @@ fn found_section(text: &mut Text, view: &CycleAnswer) {
     };
     let ends = vec![format!("end and start differ by {},", kelvin(found.residual)), bound];
     text.labelled("settled: ", ends);
+    for note in proven::notes_of_cycle(&found.solution, &view.run.task.selection) {
+        text.sentence("note:    ", &note);
+    }
     if let (Some(tau), Some(rho)) = (view.slowest(), found.multiplier) {
         let about = if found.method == CycleMethod::Modes { "" } else { "about " };
         text.line(format!(

@@ -264,6 +264,11 @@ impl Chosen {
     pub(super) fn best_values(&self) -> Option<Vec<(ParameterId, f64)>> {
         self.best().map(|best| self.values(best))
     }
+
+    /// Its margins in SI units.
+    pub(super) fn best_margins(&self) -> Option<&[f64]> {
+        self.best().map(Choice::margins)
+    }
 }
 
 impl Page for Chosen {
@@ -298,6 +303,9 @@ impl Page for Chosen {
         let best = self.best().and_then(|best| self.kept().doubt(best.judged.as_ref().ok()?));
         if let Some(doubt) = best {
             text.sentence("scatter  ", &doubt);
+        }
+        for note in self.kept().notes() {
+            text.sentence("note     ", &note);
         }
         let solved = page::solved(study.over);
         let left = self.choices.count - self.choices.judged.len();
@@ -370,12 +378,13 @@ impl Page for Chosen {
         let margin = shown
             .zip(worst)
             .and_then(|(c, i)| Some(SiValue::new(*c.margins().get(i)?, &self.kept().unit(i))));
-        self.asked.input.head(json, &[])?;
+        self.asked.input.head(json, &self.kept().doubts())?;
         json.member("values", &shown.map(|choice| self.asked.values(&self.values(choice))))?;
         json.member("margin", &margin)?;
         json.member("binding", &worst.map(|i| &self.kept().requirement(i).text))?;
         json.member("feasible", &best.is_some())?;
         json.member("over", self.asked.study.over.word())?;
+        json.optional("proven", self.kept().proof_members())?;
         json.member("objective", &self.asked.study.objective.text)?;
         json.member("count", &self.choices.count)?;
         let all: Vec<Value> =

@@ -5,6 +5,7 @@ use lptn_report::{Standing, TextTable, duration, plain, significant};
 use lptn_study::{Judged, LoadCase, SiValue};
 use serde_json::{Value, json};
 
+use super::proof::Proof;
 use crate::words::spaced;
 
 /// Margins below this share of a unit are rounding.
@@ -15,12 +16,14 @@ const ZERO: f64 = 1e-9;
 pub(super) struct Kept {
     requirements: Vec<Requirement>,
     cases: Vec<String>,
+    /// The proof of the answer, if it was asked for.
+    pub(super) proof: Option<Proof>,
 }
 
 impl Kept {
     pub(super) fn of(netlist: &Netlist, study: &SizeStudy) -> Self {
         let cases = cases(netlist, study).into_iter().map(|case| case.name).collect();
-        Self { requirements: study.requirements.clone(), cases }
+        Self { requirements: study.requirements.clone(), cases, proof: None }
     }
 
     /// Their positions.
@@ -109,12 +112,15 @@ impl Kept {
         let mut table = TextTable::of(&rows)
             .left("requirement", |&i| self.text(i))
             .right("margin", |&i| self.margin(i, judged.margins[i]));
+        if self.proof.is_some() {
+            table = table.right("proven error", |&i| self.proven_error(i));
+        }
         if times {
             let at = |&i: &usize| judged.worst_at[i].map_or("-".into(), |at| duration(at, 4));
             table = table.right("at", at);
         }
         table
-            .left("", |&i| word(i))
+            .left("", |&i| format!("{}{}", word(i), self.is_proven(i)))
             .judged(|&i| if judged.margins[i] < 0.0 { Standing::Fails } else { Standing::Holds })
             .into()
     }

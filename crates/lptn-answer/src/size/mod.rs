@@ -7,6 +7,9 @@ mod figure;
 mod kept;
 mod moments;
 mod page;
+mod proof;
+mod proof_notes;
+mod prove;
 mod several;
 mod single;
 mod write;
@@ -42,6 +45,8 @@ pub struct SizeQuestion {
     /// True if the values are to be written into the netlist.
     /// Values that cannot be written are then refused in advance.
     pub writes: bool,
+    /// True if the margins of the answer are bounded with proof.
+    pub certify: bool,
 }
 
 /// The values or parts that keep the requirements, or come closest.
@@ -75,13 +80,17 @@ impl SizeQuestion {
         let (kept, study) = (Kept::of(&input.netlist, study), study.clone());
         let asked = Asked { input, study, kept };
         let threads = self.threads.unwrap_or_else(available_threads);
-        Ok(SizeAnswer(match asked.study.single() {
+        let mut answer = SizeAnswer(match asked.study.single() {
             Some(_) => Found::Single(single::size(asked, listener)?),
             None if asked.study.catalogues.is_empty() => {
                 Found::Several(several::size(asked, threads, listener)?)
             }
             None => Found::Choice(choice::choose(asked, threads, listener)?),
-        }))
+        });
+        if self.certify {
+            answer.prove(listener)?;
+        }
+        Ok(answer)
     }
 }
 
@@ -208,6 +217,11 @@ impl SizeAnswer {
         (input.netlist.studies.sizes.len() > 1).then_some(study.name.as_str())
     }
 
+    /// Doubts in the proof, which a table has as notes.
+    pub fn beside(&self) -> Vec<Diagnostic> {
+        self.asked().kept.doubts()
+    }
+
     /// The netlist with the values in it, read again and solved: it keeps every requirement.
     /// `None` if no values do.
     ///
@@ -244,6 +258,6 @@ impl Answer for SizeAnswer {
     }
 
     fn doubts(&self) -> Vec<Diagnostic> {
-        self.asked().input.netlist.warnings.clone()
+        [self.asked().input.netlist.warnings.as_slice(), &self.beside()].concat()
     }
 }

@@ -73,13 +73,14 @@ impl Page for Sized {
         let requirements = self.asked.kept.members(&sizing.trial.judged);
         let scalar = |value: f64| SiValue::new(value, &si);
         let of_margin = |value: f64| SiValue::new(value, &self.closest_unit());
-        self.asked.input.head(json, &[])?;
+        self.asked.input.head(json, &self.asked.kept.doubts())?;
         json.member("values", &json!({ (self.name.as_str()): scalar(sizing.trial.value) }))?;
         json.member("margin", &of_margin(sizing.margin()))?;
         json.member("binding", &self.binding().map(|requirement| &requirement.text))?;
         json.member("feasible", &sizing.feasible())?;
         json.member("requirements", &requirements)?;
         json.member("over", self.asked.study.over.word())?;
+        json.optional("proven", self.asked.kept.proof_members())?;
         if let Some(edge) = &sizing.edge {
             let beyond = SiValue::new(edge.beyond, &self.asked.kept.unit(edge.broken));
             json.member("edge", &json!({ "value": scalar(edge.value), "beyond": beyond }))?;
@@ -212,6 +213,7 @@ fn notes(answer: &Sized) -> Vec<(&'static str, String)> {
     }
     notes.extend(answer.asked.kept.doubt(&sizing.trial.judged).map(|doubt| ("scatter", doubt)));
     notes.extend(edge(answer).map(|edge| ("edge", edge)));
+    notes.extend(answer.asked.kept.notes().into_iter().map(|note| ("note", note)));
     if let Some(guess) = sizing.first_guess {
         notes.push((
             "first guess",

@@ -58,6 +58,11 @@ impl Sized {
         of.map(|((id, _), value)| (*id, *value)).collect()
     }
 
+    /// The margins in SI units.
+    pub(super) fn margins(&self) -> &[f64] {
+        &self.found.design.judged.margins
+    }
+
     fn name(&self, i: usize) -> &str {
         &self.asked.study.varied[i].name
     }
@@ -136,6 +141,9 @@ impl Page for Sized {
         if let Some(doubt) = self.kept().doubt(&self.found.design.judged) {
             text.sentence("scatter  ", &doubt);
         }
+        for note in self.kept().notes() {
+            text.sentence("note     ", &note);
+        }
         let outside = &self.found.design.judged.out_of_range;
         for warning in ranges::warnings(&input.netlist, outside, false) {
             text.sentence("note     ", &warning.message);
@@ -187,7 +195,7 @@ impl Page for Sized {
         let objective = &self.asked.study.objective;
         let value = SiValue::new(self.found.design.objective, &objective.ty.dimension.si_unit());
         let binding = self.found.binding.first().map(|&i| &self.kept().requirement(i).text);
-        self.asked.input.head(json, &[])?;
+        self.asked.input.head(json, &self.kept().doubts())?;
         json.member("values", &self.asked.values(&self.values()))?;
         json.member(
             "margin",
@@ -196,6 +204,7 @@ impl Page for Sized {
         json.member("binding", &binding)?;
         json.member("feasible", &self.found.feasible)?;
         json.member("over", self.asked.study.over.word())?;
+        json.optional("proven", self.kept().proof_members())?;
         json.member("objective", &json!({ "text": objective.text, "value": value }))?;
         json.member("requirements", &requirements)
     }

@@ -6,7 +6,7 @@ use lptn_netlist::{Diagnostic, Goal, Netlist, parse_file};
 use lptn_network::ParameterId;
 use lptn_report::Shortest;
 use lptn_solve::Proceed;
-use lptn_study::judge;
+use lptn_study::{certify, judge};
 
 use super::Asked;
 use super::moments::demanded;
@@ -66,7 +66,7 @@ pub(super) fn of_all(
     let proven = DIGITS.into_iter().find_map(|digits| {
         let text = with_numbers(input, &numbers(digits)).ok()?;
         let again = parse_file(Path::new(&input.text.name), text.as_bytes()).ok()?;
-        keeps(&study.name, &again)?.then_some(text)
+        keeps((&study.name, false), &again)?.then_some(text)
     });
     let text = proven.ok_or_else(|| no_number("no numbers of", "keep"))?;
     Ok(Written { text, values: count(values.len(), "parameter") })
@@ -79,22 +79,28 @@ fn proven(answer: &Sized) -> Option<String> {
     let written = netlist.written_number(answer.parameter)?;
     let value = answer.unit.from_si(answer.sizing.trial.value);
     let up = answer.asked.study.goal == Goal::Minimise;
-    DIGITS.into_iter().find_map(|digits| {
-        let number = Shortest::new().text(rounded(value, digits, up)).to_owned();
+    let proves = answer.asked.kept.can_be_proven();
+    let numbers = DIGITS.map(|digits| rounded(value, digits, up));
+    answer.asked.kept.instead().into_iter().chain(numbers).find_map(|number| {
+        let number = Shortest::new().text(number).to_owned();
         let text = netlist.text_with_number(&written, &number);
         let again = parse_file(Path::new(&answer.asked.input.text.name), text.as_bytes()).ok()?;
-        keeps(&answer.asked.study.name, &again)?.then_some(number)
+        keeps((&answer.asked.study.name, proves), &again)?.then_some(number)
     })
 }
 
-/// True if a netlist stays inside the ranges of a study and keeps everything.
-fn keeps(name: &str, netlist: &Netlist) -> Option<bool> {
+/// True if a netlist stays inside the ranges of a study and keeps everything, with proof if `proves`.
+fn keeps((name, proves): (&str, bool), netlist: &Netlist) -> Option<bool> {
     let study = netlist.studies.sizes.iter().find(|study| study.name == name)?;
     let within = |&(id, (from, to)): &(ParameterId, (f64, f64))| {
         (from..=to).contains(&netlist.network.parameter_value(id))
     };
     let inside = study.ranges(&netlist.network).ok()?.iter().all(within);
     let watcher = |_| Proceed::Continue;
-    let judged = demanded((netlist, study), &watcher, judge).ok()?;
-    Some(inside && judged.keeps())
+    let judged = match proves {
+        true => demanded((netlist, study), &watcher, |demand| certify(demand, &[])),
+        false => demanded((netlist, study), &watcher, judge),
+    };
+    let judged = judged.ok()?;
+    Some(inside && judged.keeps() && (!proves || judged.is_proven()))
 }

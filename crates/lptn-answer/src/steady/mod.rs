@@ -98,6 +98,12 @@ impl SteadyQuestion {
         let all = self.select.is_empty();
         let fold = all && self.detail < Detail::Verbose;
         let proven = self.certify.then(|| steady.proven_errors(&system));
+        let limits = match &proven {
+            Some(Ok(bounds)) => {
+                LimitResult::with_proofs(limits, steady.proven_margins(&system, bounds))
+            }
+            _ => limits,
+        };
         Ok(SteadyAnswer { steady, table, unit, limits, balance, all, fold, proven, input })
     }
 }

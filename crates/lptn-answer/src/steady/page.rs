@@ -253,6 +253,9 @@ impl Page for SteadyAnswer {
         }
         if let Some(Ok(bounds)) = &self.proven {
             text.section().sentence("note: ", &proven::of_steady(bounds));
+            for note in proven::verdicts(network, &self.limits) {
+                text.section().sentence("note: ", &note);
+            }
         }
         for doubt in self.noted() {
             text.section().sentence("note: ", &doubt.message);

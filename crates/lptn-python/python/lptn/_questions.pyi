@@ -125,6 +125,7 @@ class Questions:
         name: Text | None = None,
         *,
         posterior: Text | None = None,
+        certify: bool = False,
         threads: int | None = None,
         progress: bool | Told = False,
         set: dict[str, Any] | None = None,

@@ -28,6 +28,8 @@ mod course;
 mod defect;
 mod gates;
 mod laguerre;
+mod margins;
+mod memory;
 mod of_solution;
 mod pieces;
 mod polynomial;
@@ -46,6 +48,7 @@ use lptn_network::{Item, Network, NodeId};
 use crate::events::ControlState;
 use crate::method::Method;
 use crate::times::Segment;
+pub(crate) use memory::shrinking;
 pub(crate) use of_solution::farthest;
 use pieces::Pieces;
 use results::{ResultBounds, Results};
@@ -90,6 +93,16 @@ pub enum Uncertified {
         format!("no bound on the errors was found from {} s on", lptn_units::format_six(*time)),
         help "choose a smaller tolerance, `--tolerance`, or run without --certify",
         class lptn_units::Class::Numbers;
+    /// A cycle does not bring differences of its start together: the node that keeps the largest
+    /// share of its own, and that share.
+    Cycle { name: String, share: f64 } = "certify::cycle",
+        format!(
+            "by its bounds a cycle leaves {} % of a difference at `{name}`, and only a smaller \
+             share than 100 % proves a periodic steady state",
+            lptn_units::format_six(100.0 * *share)
+        ),
+        help "choose a smaller tolerance, `--tolerance`, or search without --certify",
+        class lptn_units::Class::Numbers;
 }
 }
 
@@ -113,6 +126,8 @@ pub struct Certificate {
     pub(crate) results: ResultBounds,
     /// For each switch of a control the times in s between which the exact solution switches.
     pub(crate) switches: Vec<[f64; 2]>,
+    /// The way at the end of the run in K, and its bounds, of each unknown.
+    pub(crate) end: [Vec<f64>; 2],
 }
 
 /// Follows a run and bounds its errors.
@@ -138,6 +153,14 @@ impl<'a> Certifier<'a> {
             Method::OneStep => Self::Series(Box::new(SeriesCertifier::new(system, begin, from)?)),
             _ => Self::Pieces(Box::new(Pieces::new(system, begin, from)?)),
         })
+    }
+
+    /// Begins with bounds in K on the distance of the exact solution from the start.
+    pub(crate) fn begin_within(&mut self, bounds: &[f64]) {
+        match self {
+            Self::Series(certifier) => certifier.begin_within(bounds),
+            Self::Pieces(certifier) => certifier.begin_within(bounds),
+        }
     }
 
     /// Takes a part of the last step of an integrator, with these states of the controls.
@@ -184,7 +207,7 @@ fn of_one_step(system: &ThermalSystem) -> Uncertified {
 }
 
 /// Refuses the parts of a network that have no bounds.
-fn is_covered(system: &ThermalSystem) -> Result<(), Uncertified> {
+pub(crate) fn is_covered(system: &ThermalSystem) -> Result<(), Uncertified> {
     let network = system.network();
     let name = |id: NodeId| network.nodes()[id.index()].name.clone();
     if let Some(id) = network.switch_ids().next() {

@@ -79,6 +79,13 @@ impl Solution {
         Some(farthest(peak, seen.max))
     }
 
+    /// A proven bound in K on the errors of the smallest and the largest temperature of a node over
+    /// the run; `None` if there is none.
+    pub fn extreme_bound(&self, node: NodeId, [least, most]: [f64; 2]) -> Option<f64> {
+        let seen = self.result_bounds()?.of(Followed::Quantity(Quantity::Node(node)))?;
+        Some(farthest(least, seen.min).max(farthest(most, seen.max)))
+    }
+
     /// A proven bound in J on the error of the heat of a source over the run; `None` if there is
     /// none.
     pub fn source_bound(&self, id: SourceId) -> Option<f64> {

@@ -57,6 +57,8 @@ pub(crate) struct Pieces<'a> {
     largest: Largest<SAMPLES>,
     /// The most in K that a piece may add to a bound without being halved.
     allowed: f64,
+    /// The most in K that a piece may add in addition, from the bounds at the start.
+    moves: f64,
     bound: Bound,
     rows: Rows<'a>,
     /// Bounds on results, if they are asked for.
@@ -100,6 +102,7 @@ impl<'a> Pieces<'a> {
             collocation,
             largest: Largest::new(),
             allowed: SHARE * tolerance,
+            moves: 0.0,
             bound,
             rows,
             results,
@@ -112,6 +115,12 @@ impl<'a> Pieces<'a> {
             way: Way::default(),
             switches: Switches::new(Gates::new(system)),
         })
+    }
+
+    pub(super) fn begin_within(&mut self, bounds: &[f64]) {
+        // differences at the start move from node to node
+        self.moves = SHARE * bounds.iter().copied().fold(0.0, f64::max);
+        self.bound.set(bounds.to_vec());
     }
 
     /// Takes the part of a step from `from` to `to` in s, with comparisons of time as they are at
@@ -187,7 +196,8 @@ impl<'a> Pieces<'a> {
         let adds = found.as_ref().map_or(f64::INFINITY, Line::adds);
         let middle = 0.5 * (from + to);
         let halves = halvings < HALVINGS && from < middle && middle < to;
-        if halves && (adds.is_nan() || adds > self.allowed()) {
+        let allowed = self.allowed() + self.moves;
+        if halves && (adds.is_nan() || adds > allowed) {
             self.length = 0.5 * (to - from);
             return self.both([from, middle, to], halvings + 1);
         }
@@ -200,7 +210,7 @@ impl<'a> Pieces<'a> {
             }
             return self.both([from, time, to], halvings + 1);
         }
-        if adds <= LITTLE * self.allowed && halvings == 0 {
+        if adds <= LITTLE * (self.allowed + self.moves) && halvings == 0 {
             self.length *= LONGER;
         }
         self.bound.go(&line);
@@ -371,7 +381,8 @@ impl<'a> Pieces<'a> {
         self.last_window()?;
         let switches = std::mem::take(&mut self.switches.found);
         let results = self.results.map(Results::into_found).unwrap_or_default();
-        Ok(Certificate { results, switches, ..self.rows.into_certificate() })
+        let end = [self.arrived, self.bound.now().to_vec()];
+        Ok(Certificate { results, switches, end, ..self.rows.into_certificate() })
     }
 }
 

@@ -132,7 +132,7 @@ pub(crate) struct Results<'a> {
 }
 
 /// Temperatures, and the heat of boundaries, that results read.
-struct Placed {
+pub(super) struct Placed {
     inputs: InputBounds,
     vertices: Vec<Taylor>,
     given: Vec<Option<Taylor>>,
@@ -185,7 +185,8 @@ impl<'a> Results<'a> {
             |inputs: &mut InputBounds| open.iter().for_each(|id| network.loosen(inputs, *id));
         inputs.iter_mut().for_each(loosen);
         let ([over, at], [whole, middle]) = (inputs, way.tube(bound));
-        let placed = self.place(over, &whole).zip(self.place(at, &middle));
+        let place = |inputs, y: &[Taylor]| Placed::new(self.system, inputs, y);
+        let placed = place(over, &whole).zip(place(at, &middle));
         let Some((mut over, mut at)) = placed else {
             self.found.followed.iter_mut().for_each(|(_, seen)| *seen = None);
             return;
@@ -218,7 +219,7 @@ impl<'a> Results<'a> {
             Taylor::between(&[[t - bound, t + bound]])
         };
         let y: Vec<Taylor> = state.iter().zip(bounds).map(wide).collect();
-        let mut placed = self.place(inputs, &y);
+        let mut placed = Placed::new(self.system, inputs, &y);
         let range = |quantity: &Quantity| {
             let bounds = placed.as_mut().and_then(|placed| placed.value(network, *quantity));
             bounds.and_then(|bounds| bounds.range()).unwrap_or([f64::NAN; 2])
@@ -227,10 +228,20 @@ impl<'a> Results<'a> {
         self.found.rows.extend(row);
     }
 
+    pub(super) fn into_found(self) -> ResultBounds {
+        self.found
+    }
+}
+
+impl Placed {
     /// Places bounds on all temperatures for the results that read them; `None` if there are none.
-    fn place(&self, mut inputs: InputBounds, y: &[Taylor]) -> Option<Placed> {
-        let network = self.system.network();
-        let vertices = self.system.enclose_vertices(&mut inputs, y).ok()?;
+    pub(super) fn new(
+        system: &ThermalSystem,
+        mut inputs: InputBounds,
+        y: &[Taylor],
+    ) -> Option<Self> {
+        let network = system.network();
+        let vertices = system.enclose_vertices(&mut inputs, y).ok()?;
         let given = network.enclose_given(&mut inputs, &vertices);
         network.place_bounds(&mut inputs, &vertices);
         let heats: Vec<Option<Taylor>> = network
@@ -238,16 +249,10 @@ impl<'a> Results<'a> {
             .map(|heat| network.enclose_heat(heat, &mut inputs, (&vertices, &given)))
             .collect();
         network.place_heat_bounds(&mut inputs, &heats);
-        Some(Placed { inputs, vertices, given })
+        Some(Self { inputs, vertices, given })
     }
 
-    pub(super) fn into_found(self) -> ResultBounds {
-        self.found
-    }
-}
-
-impl Placed {
-    fn followed(&mut self, network: &Network, number: Followed) -> Option<Taylor> {
+    pub(super) fn followed(&mut self, network: &Network, number: Followed) -> Option<Taylor> {
         match number {
             Followed::Quantity(quantity) => self.value(network, quantity),
             Followed::Margin(id) => network.enclose_margin(id, &mut self.inputs),

@@ -135,6 +135,10 @@ impl<'a> SeriesCertifier<'a> {
         })
     }
 
+    pub(super) fn begin_within(&mut self, bounds: &[f64]) {
+        self.bound.set(bounds.to_vec());
+    }
+
     /// Takes the present step of the integrator inside a segment.
     pub(super) fn step(
         &mut self,
@@ -226,7 +230,8 @@ impl<'a> SeriesCertifier<'a> {
         }
         let results = self.along.map(|along| along.into_results().into_found());
         let results = results.unwrap_or_default();
-        Ok(Certificate { results, ..self.rows.into_certificate() })
+        let end = [self.arrived, self.bound.now().to_vec()];
+        Ok(Certificate { results, end, ..self.rows.into_certificate() })
     }
 }
 

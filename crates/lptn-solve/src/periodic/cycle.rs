@@ -7,7 +7,7 @@ use super::error::PeriodicError;
 use super::secants::Shot;
 use crate::events::{ControlState, Event, EventKind};
 use crate::selection::RecordedNodes;
-use crate::settings::{Proceed, Progress, Transient};
+use crate::settings::{Around, Proceed, Progress, Transient};
 use crate::solution::{RunStatus, Solution};
 use crate::state::State;
 
@@ -103,8 +103,24 @@ impl<'a> Cycles<'a> {
             jumps: None,
             balance: None,
             tolerance,
+            certify: false,
             ..self.settings.clone()
         }
+    }
+
+    /// The end of a cycle with proven bounds, around a start; with all
+    /// requested results or none.
+    pub(super) fn certified(
+        &mut self,
+        (start, tolerance): (Vec<f64>, f64),
+        (around, results): (Around, bool),
+    ) -> Result<Solution, PeriodicError> {
+        let asked = match results {
+            true => Transient { tolerance, ..self.settings.clone() },
+            false => Transient { certified: None, ..self.bare(tolerance) },
+        };
+        let asked = Transient { certify: true, around: Some(around), ..asked };
+        self.run(&asked, start).map(|(_, solution)| solution)
     }
 
     /// Integrates one cycle with all requested results, but to this tolerance in K.
@@ -113,7 +129,7 @@ impl<'a> Cycles<'a> {
         start: Vec<f64>,
         tolerance: f64,
     ) -> Result<(Shot, Solution), PeriodicError> {
-        self.run(&Transient { tolerance, ..self.settings.clone() }, start)
+        self.run(&Transient { tolerance, certify: false, ..self.settings.clone() }, start)
     }
 
     fn run(

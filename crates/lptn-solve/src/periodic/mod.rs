@@ -7,12 +7,14 @@
 mod cycle;
 mod error;
 mod memory;
+mod proof;
 mod search;
 mod secants;
 
 use lptn_assembly::ThermalSystem;
 
 use crate::adiabatic::Island;
+use crate::certify::Uncertified;
 use crate::exact::ExactCycle;
 use crate::pipe;
 use crate::settings::{Proceed, Progress, Transient};
@@ -81,6 +83,9 @@ impl Periodic {
     /// several periodic states. Each cycle begins where those before it make the next difference
     /// smallest; until the error is below ten tolerances, or the residual is and no longer shrinks.
     ///
+    /// With [`Transient::certify`] the bounds of the solution are those on the distance from the
+    /// periodic state itself.
+    ///
     /// # Errors
     /// [`PeriodicError`].
     pub fn find(system: &ThermalSystem, settings: &Transient) -> Result<Self, PeriodicError> {
@@ -113,7 +118,9 @@ impl Periodic {
         let observer: &mut Observer<'_> = &mut observer;
         let mut cycles = Cycles::new(system, settings, observer);
         if system.states().is_empty() {
-            let (_, solution) = cycles.record(Vec::new(), settings.tolerance)?;
+            let (_, mut solution) = cycles.record(Vec::new(), settings.tolerance)?;
+            solution.certificate =
+                settings.certify.then(|| Err(Uncertified::without_state(system)));
             return Ok(Self::stateless(solution));
         }
         check_balance(&mut cycles)?;
@@ -127,6 +134,8 @@ impl Periodic {
             Some((start, exact)) => by_modes(&mut cycles, start, (&exact, settings.tolerance))?,
             None => Search::new(&mut cycles, settings.tolerance).find(system.initial())?,
         };
+        let found =
+            if settings.certify { proof::proven(&mut cycles, (found, method))? } else { found };
         Ok(Self::of(found, method, &cycles))
     }
 

@@ -7,14 +7,15 @@ use lptn_analysis::{Analysis, Found, RunAnalysis, Trust, Trusted};
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Netlist, Requirement};
 use lptn_network::{Network, ParameterId, RunSettings, Value};
-use lptn_solve::{OutOfRange, Proceed, Progress, Solution, SteadyState};
+use lptn_solve::{
+    OutOfRange, Proceed, Progress, ProvenMargin, Selection, Solution, SteadyState, Uncertified,
+};
 use lptn_units::EvalError;
-use lptn_units::statistics::quantile;
 
 use crate::size::aim::Aim;
 use crate::size::error::{SizeError, TrialError};
 use crate::size::load_case::LoadCase;
-use crate::uncertainty::{Inputs, Uncertain};
+use crate::uncertainty::Inputs;
 
 /// The finest tolerance in K of runs that are judged, unless the run itself needs a finer one. Ten
 /// times this is 1e-8 of a rise of 1 K.
@@ -27,6 +28,8 @@ pub(crate) enum Care {
     Look,
     /// As accurate as a run can be.
     Proof,
+    /// The same, with proven bounds.
+    Certified,
     /// A run with this tolerance in K; for a steady state one that follows the network from its
     /// start.
     Within(f64),
@@ -37,7 +40,7 @@ impl Care {
     fn tolerance(self, own: f64) -> f64 {
         match self {
             Self::Look => own,
-            Self::Proof => own.min(FINE),
+            Self::Proof | Self::Certified => own.min(FINE),
             Self::Within(tolerance) => tolerance.max(own),
         }
     }
@@ -125,6 +128,10 @@ pub struct Judged {
     pub out_of_range: Vec<OutOfRange>,
     /// The objective in SI units if it reads results; the worst of several load cases.
     pub objective: Option<f64>,
+    /// Proven bounds on each margin, if they were asked for; `None` for one without.
+    pub proven: Vec<Option<ProvenMargin>>,
+    /// The reason why there are no proven bounds, in the first load case without.
+    pub unproven: Option<Uncertified>,
     /// Error of its temperatures in K, or in SI units that of a margin that changes faster than
     /// steps are evaluated; 0 in steady state, which is refined to rounding.
     pub error: f64,
@@ -139,10 +146,10 @@ impl Judged {
 
 /// Judges designs: networks that differ by parameters. Nothing is parsed, the structure is shared.
 pub(crate) struct Judge<'a> {
-    demand: Demand<'a>,
+    pub(super) demand: Demand<'a>,
     /// The objective, if it reads results.
     sought: Option<Aim<'a>>,
-    base: Network,
+    pub(super) base: Network,
     count: AtomicUsize,
 }
 
@@ -177,9 +184,10 @@ impl<'a> Judge<'a> {
                 }
                 demand.network.clone()
             }
-            // limits are evaluated between rows and steps
-            _ => demand.network.requiring(limits),
+            _ => demand.network.clone(),
         };
+        // limits are evaluated between rows and steps
+        let base = base.requiring(limits);
         Ok(Self { demand, sought, base, count: AtomicUsize::new(0) })
     }
 
@@ -207,6 +215,8 @@ impl<'a> Judge<'a> {
             all.deviations.extend(one.deviations);
             all.left_out.extend(one.left_out);
             all.worst_at.extend(one.worst_at);
+            all.proven.extend(one.proven);
+            all.unproven = all.unproven.or(one.unproven);
             all.out_of_range.extend(one.out_of_range);
             all.error = all.error.max(one.error);
             all.objective = match (all.objective, one.objective, self.sought) {
@@ -215,45 +225,6 @@ impl<'a> Judge<'a> {
             };
         }
         Ok(all)
-    }
-
-    /// Subtracts from every margin the part that the `±` of parameters may take with a probability:
-    /// margins are linear in the parameters and normal. Each parameter, with those correlated to
-    /// it, is moved by one standard deviation to either side of its value in the design and the
-    /// case.
-    fn doubt(
-        &self,
-        judged: &mut Judged,
-        (design, case): (&[(ParameterId, f64)], &LoadCase),
-        (doubt, care): (Doubt<'_>, Care),
-    ) -> Result<(), TrialError> {
-        let (mut variances, mut left_out) =
-            (vec![0.0; judged.margins.len()], vec![0.0; judged.margins.len()]);
-        let value = |id: ParameterId| {
-            let set = case.set.iter().chain(design).rev().find(|(other, _)| *other == id);
-            set.map_or(self.base.parameter_value(id), |(_, value)| *value)
-        };
-        for direction in doubt.inputs.into_iter().flat_map(Inputs::directions) {
-            let moved = |side: f64| {
-                let to = |(input, part): &(Uncertain, f64)| {
-                    (input.parameter, input.moved(value(input.parameter), side * part))
-                };
-                let design: Vec<_> =
-                    design.iter().copied().chain(direction.iter().map(to)).collect();
-                self.in_case((&design, case), care).map(|judged| judged.margins)
-            };
-            let (low, high) = (moved(-1.0)?, moved(1.0)?);
-            for (i, margin) in judged.margins.iter().enumerate() {
-                variances[i] += (0.5 * (high[i] - low[i])).powi(2);
-                left_out[i] += 0.5 * (high[i] + low[i]) - margin;
-            }
-        }
-        judged.deviations = variances.into_iter().map(f64::sqrt).collect();
-        judged.left_out = left_out;
-        let times = quantile(doubt.probability);
-        let margins = judged.margins.iter_mut().zip(&judged.deviations);
-        margins.for_each(|(margin, deviation)| *margin -= times * deviation);
-        Ok(())
     }
 
     /// The network as it is with the values of a design, without a load case.
@@ -295,7 +266,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn in_case(
+    pub(super) fn in_case(
         &self,
         (design, case): (&[(ParameterId, f64)], &LoadCase),
         care: Care,
@@ -312,7 +283,12 @@ impl<'a> Judge<'a> {
         let system = ThermalSystem::assemble(network)?;
         let observer = &mut |progress| (self.demand.watcher)(progress);
         match analysis.ask(&system, observer)? {
-            Found::Steady(answer) => self.in_steady_state(network, answer),
+            Found::Steady(answer) => {
+                let proofs = (care == Care::Certified).then(|| self.proofs(&system, &answer));
+                let (proven, unproven) = proofs.unwrap_or_default();
+                let judged = self.in_steady_state(network, answer)?;
+                Ok(Judged { proven, unproven, ..judged })
+            }
             Found::Run(answer) => self.over_time((&answer, &answer.trust), 0.0),
             Found::Cycle(answer) => self.over_time((&answer.solution, &answer.trust), answer.error),
         }
@@ -323,9 +299,11 @@ impl<'a> Judge<'a> {
         let run = |of: &RunOf<'_>| {
             let settings = of(network).map_err(TrialError::Settings)?;
             let tolerance = care.tolerance(settings.tolerance);
-            Ok::<_, TrialError>(
-                RunAnalysis::of(network, &settings).bare().at(vec![]).within(tolerance),
-            )
+            let run = RunAnalysis::of(network, &settings).bare().at(vec![]).within(tolerance);
+            Ok::<_, TrialError>(match care {
+                Care::Certified => run.certified(Selection::of_reports(&[])),
+                _ => run,
+            })
         };
         Ok(match self.demand.moments {
             Moments::Steady(time) => Analysis::Steady { time, within: care.within() },
@@ -377,6 +355,10 @@ impl<'a> Judge<'a> {
             margins: seen.iter().map(|seen| seen.margin).collect(),
             worst_at: seen.iter().map(|seen| Some(seen.worst_at)).collect(),
             out_of_range: trust.out_of_range.clone(),
+            proven: solution
+                .certificate()
+                .map_or_else(Vec::new, |_| seen.iter().map(|seen| seen.proven).collect()),
+            unproven: solution.certificate().and_then(|found| found.as_ref().err().cloned()),
             error,
             ..Judged::default()
         })

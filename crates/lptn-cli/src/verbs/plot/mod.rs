@@ -148,6 +148,7 @@ fn of_cycle(
         format: Format::Csv,
         report: false,
         detail: console.detail,
+        certify: false,
     };
     console.warn(&input.netlist.files, &input.netlist.warnings);
     let answer = question.ask(Arc::new(input), &console.listening())?;

@@ -34,7 +34,7 @@ pub(crate) struct RunArgs {
     /// Integrate to a tolerance such as 1e-7K
     #[arg(long, value_name = "K")]
     pub(crate) tolerance: Option<String>,
-    /// Bound the error of each temperature, with proof
+    /// Bound the errors of the results, with proof
     #[arg(long)]
     pub(crate) certify: bool,
     /// Write files here, not into out/NAME

@@ -31,6 +31,9 @@ pub(crate) struct SizeArgs {
     /// Write the value into the netlist; comments and order stay
     #[arg(long, conflicts_with_all = ["set", "power"])]
     pub(crate) write: bool,
+    /// Bound the errors of the results, with proof
+    #[arg(long, conflicts_with = "power")]
+    pub(crate) certify: bool,
     /// Use this number of threads instead of all; the result is the same
     #[arg(long, value_name = "N", conflicts_with = "power")]
     pub(crate) threads: Option<usize>,

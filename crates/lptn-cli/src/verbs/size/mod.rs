@@ -42,13 +42,20 @@ impl SizeArgs {
 }
 
 fn of_netlist(args: &SizeArgs, file: &Path, console: &Console) -> Result<Exit, Failure> {
-    let question =
-        SizeQuestion { name: args.name.clone(), threads: args.threads, writes: args.write };
+    let question = SizeQuestion {
+        name: args.name.clone(),
+        threads: args.threads,
+        writes: args.write,
+        certify: args.certify,
+    };
     let source = Source { set: args.set.clone(), ..Source::of(file.to_owned()) };
     let input = Input::load_from(&source, &Belief::of(args.posterior.as_deref()))?;
     let ask = || question.ask(Arc::new(input), &console.listening());
     let answer = console.phases.timed("size", ask)?;
-    // the doubts of the netlist, which are all, were printed before it was sized
+    // the doubts of the netlist were printed before it was sized
+    if args.printed.format != Format::Table {
+        console.warn(answer.files(), &answer.beside());
+    }
     console.show(&answer, args.printed.format)?;
     let typed = quoted(&file.display().to_string());
     if answer.exit() != Exit::Done {

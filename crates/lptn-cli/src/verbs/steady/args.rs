@@ -23,8 +23,8 @@ pub(crate) struct SteadyArgs {
     /// Show the heat into and out of a node or boundary, largest path first
     #[arg(long, value_name = "NODE")]
     pub(crate) balance: Option<String>,
-    /// Bound the error of each temperature, with proof
-    #[arg(long, conflicts_with = "periodic")]
+    /// Bound the errors of the results, with proof
+    #[arg(long)]
     pub(crate) certify: bool,
     #[command(flatten)]
     pub(crate) cycle: CycleArgs,

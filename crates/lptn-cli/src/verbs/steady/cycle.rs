@@ -25,6 +25,7 @@ pub(super) fn cycle(args: &SteadyArgs, console: &Console) -> Result<Exit, Failur
         format: args.shown.format,
         report: console.reports(),
         detail: console.detail,
+        certify: args.certify,
     };
     let input = Arc::new(console.phases.timed("read", || Input::load(&args.source))?);
     let task = question.of(Arc::clone(&input))?;
