@@ -35,6 +35,7 @@ pub(super) struct Along<'a> {
     basis: [[f64; SAMPLES]; SAMPLES],
     rests: Rests,
     samples: [Vec<f64>; SAMPLES],
+    apart: Vec<f64>,
     /// Parts of steps whose bound is not known yet: the first `count` of them.
     parts: Vec<Part>,
     count: usize,
@@ -67,6 +68,7 @@ impl<'a> Along<'a> {
             basis: way::basis(),
             rests: Rests::default(),
             samples: std::array::from_fn(|_| vec![0.0; system.unknowns().len()]),
+            apart: vec![0.0; system.unknowns().len()],
             parts: Vec::new(),
             count: 0,
             row: 0,
@@ -88,18 +90,18 @@ impl<'a> Along<'a> {
         self.count += 1;
         part.span = (from, to);
         let share = |time: f64| ((time - step.span.0) / step.length).clamp(0.0, step.share);
-        let (ends, [start, end]) = (weights(step.share), step.ends);
-        let sum = |weights: &[f64; MOST], unknown: usize| {
-            let terms = weights.iter().zip(step.terms);
-            terms.map(|(weight, term)| weight * term[unknown]).sum::<f64>()
-        };
-        let places = way::places::<SAMPLES>();
-        for (sample, place) in self.samples.iter_mut().zip(places) {
+        let [start, end] = step.ends;
+        // what the terms leave of the way, up to the end of the step
+        add_up(&weights(step.share), step.terms, &mut self.apart);
+        for ((apart, end), start) in self.apart.iter_mut().zip(end).zip(start) {
+            *apart = end - start - *apart;
+        }
+        for (sample, place) in self.samples.iter_mut().zip(way::places::<SAMPLES>()) {
             let at = share(from + 0.5 * (1.0 + place) * (to - from));
-            let (weights, past) = (weights(at), at / step.share);
-            for (unknown, t) in sample.iter_mut().enumerate() {
-                let apart = end[unknown] - start[unknown] - sum(&ends, unknown);
-                *t = start[unknown] + (sum(&weights, unknown) + past * apart);
+            let past = at / step.share;
+            add_up(&weights(at), step.terms, sample);
+            for ((t, apart), start) in sample.iter_mut().zip(&self.apart).zip(start) {
+                *t = start + (*t + past * apart);
             }
         }
         part.way.put(&self.samples, &self.basis);
@@ -136,6 +138,16 @@ impl<'a> Along<'a> {
 
     pub(super) fn into_results(self) -> Results<'a> {
         self.results
+    }
+}
+
+/// The sum of the terms of a series with these weights, for each unknown.
+fn add_up(weights: &[f64; MOST], terms: &[Vec<f64>], sum: &mut [f64]) {
+    sum.fill(0.0);
+    for (weight, term) in weights.iter().zip(terms) {
+        for (sum, term) in sum.iter_mut().zip(term) {
+            *sum += weight * term;
+        }
     }
 }
 
