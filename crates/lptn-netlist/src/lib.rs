@@ -131,7 +131,7 @@ pub use plan::{
 };
 pub use posterior::{Believed, Posterior, PosteriorOf, PosteriorPrior, PosteriorQuantity};
 pub use raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
-pub use run_times::RunTime;
+pub use run_times::{GivenTime, RunTime};
 pub use schema::schema;
 pub use section::{Studies, format};
 pub use sensor::{Certainty, Sensor, SensorValue};
