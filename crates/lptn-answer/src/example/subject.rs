@@ -108,13 +108,13 @@ impl Subject {
         // a share, such as an emissivity, stays one
         let most = if parameter.ty.is_scalar() && value <= 1.0 { 1.0 } else { f64::INFINITY };
         let scaled = |[low, high]: [f64; 2]| [value * low, (value * high).min(most)];
-        let all = FACTORS.iter().skip(usize::from(choice.order > 0)).map(|of| scaled(*of));
+        let mut all = FACTORS.iter().skip(usize::from(choice.order > 0)).map(|of| scaled(*of));
         let states = |ends: &[f64; 2]| {
             self.over_run || ends.iter().all(|end| has_state(input, choice.id, *end))
         };
         let ends = match absolute {
             true => [value - AROUND, value + AROUND],
-            false => all.clone().find(states).or(all.last()).unwrap_or([value, value]),
+            false => all.clone().find(states).or_else(|| all.next_back()).unwrap_or([value; 2]),
         };
         let known_to = if absolute { "0.5 K" } else { "5 %" };
         let name = parameter.name.clone();

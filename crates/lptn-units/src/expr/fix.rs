@@ -142,14 +142,14 @@ impl Source<'_> {
 
     /// With one correction, or with both numbers that a temperature can be.
     fn absolute_operand(&self, id: Id, operation: &'static str, fix: Option<String>) -> UnitError {
-        let Some(fix) = fix else { return self.from_zeros(id, operation, (&[id], &[id])) };
+        let Some(fix) = fix else { return self.with_zeros(id, operation, (&[id], &[id])) };
         let kind = Kind::AbsoluteOperand { operation, fix, celsius: None };
         UnitError::new(kind, self.tree.span(id))
     }
 
     /// With both numbers that a temperature can be: the operands that count from 0 K in one text,
     /// and from 0 degC in the other, each in the order of the text.
-    pub(crate) fn from_zeros(
+    pub(crate) fn with_zeros(
         &self,
         id: Id,
         operation: &'static str,

@@ -57,7 +57,7 @@ fn sum_of_absolutes(source: &Source<'_>, a: Id, b: Id) -> UnitError {
         let kind = Kind::AbsoluteOperand { operation, fix, celsius: None };
         return UnitError::new(kind, source.tree.span(b));
     }
-    source.from_zeros(b, operation, (&[a, b], &[b]))
+    source.with_zeros(b, operation, (&[a, b], &[b]))
 }
 
 pub(crate) fn product(source: &Source<'_>, operator: Operator, a: Operand, b: Operand) -> Typed {
