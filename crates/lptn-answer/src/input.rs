@@ -5,8 +5,8 @@ use std::path::Path;
 
 use lptn_assembly::{AssemblyError, ThermalSystem};
 use lptn_netlist::{
-    Diagnostic, Files, MOST_BYTES, Netlist, ReadError, Rejected, RunTime, Span, parse_bytes,
-    parse_file, similar_file,
+    Diagnostic, Files, GivenTime, MOST_BYTES, Netlist, ReadError, Rejected, RunTime, Span,
+    parse_bytes, parse_file, similar_file,
 };
 use lptn_network::{InputError, Item, ParameterId};
 use lptn_report::{Json, Text, plain};
@@ -193,17 +193,28 @@ impl Input {
         Ok(Self { text, netlist, set, command: Vec::new() })
     }
 
+    /// The same with another stop of the run and another interval between its rows. They are
+    /// checked with the values, not before them.
+    ///
+    /// # Errors
+    /// As [`Input::of`], a text that is not a time, and a time that does not fit the run.
+    pub fn of_run(
+        (text, mut netlist): (Given, Netlist),
+        (belief, times): (&Belief<'_>, [Option<&str>; 2]),
+        settings: (Option<&str>, &[String]),
+    ) -> Result<Self, Failure> {
+        netlist.replace_run_times(&given_times(times)?);
+        let mut input = Self::of((text, netlist), belief, settings)?;
+        input.netlist.set_run_times(&[])?;
+        Ok(input)
+    }
+
     /// Gives the run another stop and another interval between its rows.
     ///
     /// # Errors
     /// A text that is not a time, and a time that does not fit the run.
     pub fn set_times(&mut self, stop: Option<&str>, every: Option<&str>) -> Result<(), Failure> {
-        for (which, text) in [(RunTime::Stop, stop), (RunTime::Every, every)] {
-            let Some(text) = text else { continue };
-            let time = quantity(which.option(), text, Type::of(Dimension::TIME))?;
-            self.netlist.set_run_time(which, text, time.value)?;
-        }
-        Ok(())
+        Ok(self.netlist.set_run_times(&given_times([stop, every])?)?)
     }
 
     /// Name of the network: its title, else the name of its file.
@@ -275,58 +286,14 @@ impl Input {
     }
 }
 
-/// The studies of one kind, and the messages if the wanted one cannot be found.
-pub struct Studies<'t> {
-    /// The word of their sections, `size` of `[size.fan]`.
-    pub section: &'static str,
-    /// The codes if there is none, and if several can be meant.
-    pub codes: [&'static str; 2],
-    /// The question of such a study, for the message.
-    pub question: &'static str,
-    /// A section to paste.
-    pub example: &'t str,
-}
-
-impl Studies<'_> {
-    /// The study of this name, or the only one.
-    pub fn find<'a, S>(
-        &self,
-        input: &Input,
-        (all, name_of): (&'a [S], fn(&S) -> &str),
-        name: Option<&str>,
-    ) -> Result<&'a S, Failure> {
-        let (file, section) = (&input.text.name, self.section);
-        let known = || all.iter().map(name_of);
-        let list = || known().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-        let [none, several] = self.codes;
-        let found = match name {
-            Some(name) => all.iter().find(|study| name_of(study) == name),
-            None => all.first().filter(|_| all.len() == 1),
-        };
-        if let Some(found) = found {
-            return Ok(found);
-        }
-        let problem = match (name, all.is_empty()) {
-            (None, true) => Diagnostic::error(
-                none,
-                format!("{file} has no [{section}.NAME]: {}", self.question),
-            )
-            .help(format!("add for example:\n\n{}", self.example)),
-            (None, false) => {
-                Diagnostic::error(several, format!("{file} has several [{section}.NAME]"))
-                    .help(format!("name one of {}", list()))
-            }
-            (Some(name), empty) => {
-                let problem = Diagnostic::error(none, format!("{file} has no [{section}.{name}]"));
-                if empty {
-                    problem
-                } else {
-                    problem.did_you_mean(name, known(), || format!("name one of {}", list()))
-                }
-            }
-        };
-        Err(Failure::new(Exit::Input, problem))
-    }
+/// The stop and the interval between rows as times.
+fn given_times<'t>(texts: [Option<&'t str>; 2]) -> Result<Vec<GivenTime<'t>>, Failure> {
+    let given = [RunTime::Stop, RunTime::Every].into_iter().zip(texts);
+    let read = |(which, text): (RunTime, &'t str)| {
+        let time = quantity(which.option(), text, Type::of(Dimension::TIME))?;
+        Ok((which, text, time.value))
+    };
+    given.filter_map(|(which, text)| Some((which, text?))).map(read).collect()
 }
 
 /// The netlist of a text.

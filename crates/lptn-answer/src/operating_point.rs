@@ -65,20 +65,22 @@ impl OperatingPoint {
     /// Notes on the linearised network and its error.
     /// `tried` is `None` if the network is linear itself.
     pub fn notes(&self, tried: Option<Tried>) -> Vec<String> {
-        let Some(Tried { disturbance, heat, share }) = tried else {
+        let Some(Tried { disturbance, heat, share, .. }) = tried else {
             return vec!["the network is linear: it is the same near every state".to_owned()];
         };
         let brought = match share {
             share if share < 1.0 => format!("{} % of", significant(100.0 * share, 2)),
             _ => "more than".to_owned(),
         };
-        vec![format!(
+        let first = format!(
             "linearised at {}: for ± {} K the heat flows are off by up to {} W, {brought} the heat \
              of the disturbance",
             self.name,
             significant(disturbance, 3),
             significant(heat, 2),
-        )]
+        );
+        let none = tried.and_then(without_slopes).map(|missed| format!("heat flows {missed}"));
+        [Some(first), none].into_iter().flatten().collect()
     }
 
     /// The same as an object of JSON.
@@ -93,6 +95,22 @@ impl OperatingPoint {
         let time = SiValue::new(self.state.time, "s");
         json!({ "time": time, "settled": self.state.settled, "tried": tried })
     }
+}
+
+/// "are not linear there, ..", if no linear network describes a state. `reduce` and `verify` judge
+/// a state by this.
+pub fn without_slopes(tried: Tried) -> Option<String> {
+    let missed = match tried.small {
+        small if small < 1.0 => format!("{} % of", significant(100.0 * small, 2)),
+        _ => "more than".to_owned(),
+    };
+    let size = significant(tried.disturbance / 100.0, 3);
+    (!tried.has_slopes).then(|| {
+        format!(
+            "are not linear there: even for ± {size} K the linear network misses {missed} the heat \
+             of the disturbance"
+        )
+    })
 }
 
 /// The place in the file that makes a network nonlinear.

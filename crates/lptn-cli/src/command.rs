@@ -60,27 +60,25 @@ pub(crate) fn refuse(error: &clap::Error) -> Exit {
         .or_else(|| no_such_option(error))
         .or_else(|| word_too_many(error))
         .or_else(|| {
-            verb.and_then(|verb| {
-                file_as_verb(verb).or_else(|| near_verb(verb)).or_else(|| path_as_verb(verb))
+            verb.map(|verb| {
+                let other = || near_verb(verb).or_else(|| path_as_verb(verb));
+                file_as_verb(verb).or_else(other).unwrap_or_else(|| no_verb(verb))
             })
         });
     let global =
         Global { quiet: false, verbose: false, color: Color::Auto, plot: None, report: None };
     let console = Console::new(&global, None);
-    match problem {
-        Some(problem) => console.report(&Files::new(), &[problem]),
+    let problem = match problem {
+        Some(problem) => problem,
         None if !error.use_stderr() => error.exit(),
-        None => {
-            // if stderr is closed, no one can read it
-            drop(error.print());
-            console.note_down(&Files::new(), &[wrong_usage(&error.render().to_string())]);
-        }
-    }
+        None => wrong_usage(&error.render().to_string()),
+    };
+    console.report(&Files::new(), &[problem]);
     console.answer_failure(Exit::Input);
     Exit::Input
 }
 
-/// The parser's message on a command line as a diagnostic; people get it unchanged.
+/// The parser's message on a command line as a diagnostic.
 fn wrong_usage(text: &str) -> Diagnostic {
     let mut parts = text.trim_end().split("\n\n").map(|part| {
         let lines: Vec<&str> = part.lines().map(str::trim).collect();
@@ -88,10 +86,14 @@ fn wrong_usage(text: &str) -> Diagnostic {
     });
     let first = parts.next().unwrap_or_default();
     let problem = Diagnostic::error("input::usage", first.trim_start_matches("error: "));
-    parts.fold(problem, |problem, part| match part.strip_prefix("tip: ") {
-        Some(tip) => problem.help(tip),
-        None => problem.note(part),
-    })
+    let problem = parts.filter(|part| !part.starts_with("For more")).fold(
+        problem,
+        |problem, part| match part.strip_prefix("tip: ") {
+            Some(tip) => problem.help(tip),
+            None => problem.note(part),
+        },
+    );
+    problem.help(lists_options())
 }
 
 /// `--report page.html`, of which only `--report` is understood.
@@ -103,25 +105,49 @@ fn page_without_sign(error: &clap::Error) -> Option<Diagnostic> {
     is_page.then(|| problem.help(format!("write --report={}", quoted(word))))
 }
 
-/// An unknown option of the verb that resembles none of its options.
+/// An unknown option. The parser's own suggestion is not used: it takes distant words for near.
 fn no_such_option(error: &clap::Error) -> Option<Diagnostic> {
     let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg) else {
         return None;
     };
-    let near = error.get(ContextKind::SuggestedArg).is_some();
-    if error.kind() != ErrorKind::UnknownArgument || !option.starts_with('-') || near {
+    if error.kind() != ErrorKind::UnknownArgument || !option.starts_with('-') {
         return None;
     }
-    let words = verb_words();
-    let verb = if words.is_empty() { String::new() } else { format!(" {}", words.join(" ")) };
-    let message = format!("`lptn{verb}` has no option `{option}`");
+    let message = format!("`{}` has no option `{option}`", command_line());
     let problem = Diagnostic::error("input::no_option", message);
-    let others = verbs_with(option);
-    let help = format!("`lptn{verb} --help` lists its options");
-    Some(problem.help(match others.as_slice() {
-        [] => help,
-        verbs => format!("{help}; {option} belongs to {}", verbs.join(", ")),
+    let help = lists_options();
+    Some(problem.help(match (verbs_with(option).as_slice(), near_option(option)) {
+        ([], Some(near)) => format!("did you mean `{near}`? {help}"),
+        ([], None) => help,
+        (verbs, _) => format!("{help}; {option} belongs to {}", verbs.join(", ")),
     }))
+}
+
+/// `lptn` with the verb of the command line.
+fn command_line() -> String {
+    let words = std::iter::once("lptn".to_owned()).chain(verb_words());
+    words.collect::<Vec<_>>().join(" ")
+}
+
+fn lists_options() -> String {
+    format!("`{} --help` lists its options", command_line())
+}
+
+/// The option of the verb that is nearly this one.
+fn near_option(option: &str) -> Option<String> {
+    let mut command = Args::command();
+    let everywhere: Vec<String> = longs(&command).collect();
+    for word in verb_words() {
+        command = command.find_subcommand(&word)?.clone();
+    }
+    let own: Vec<String> = longs(&command).chain(everywhere).collect();
+    suggest(option, own.iter().map(String::as_str)).map(str::to_owned)
+}
+
+/// The options of a verb, `--stop`.
+fn longs(command: &Command) -> impl Iterator<Item = String> {
+    let shown = command.get_arguments().filter(|argument| !argument.is_hide_set());
+    shown.filter_map(|argument| Some(format!("--{}", argument.get_long()?)))
 }
 
 /// The verb of the command line, and the one inside it: `fit`, `network`.
@@ -138,11 +164,7 @@ fn verb_words() -> Vec<String> {
 
 /// The verbs that have this option.
 fn verbs_with(option: &str) -> Vec<String> {
-    let has = |command: &Command| {
-        command.get_arguments().any(|argument| {
-            argument.get_long().is_some_and(|long| option.strip_prefix("--") == Some(long))
-        })
-    };
+    let has = |command: &Command| longs(command).any(|long| long == option);
     let root = Args::command();
     let mut found = Vec::new();
     for verb in root.get_subcommands() {
@@ -219,6 +241,13 @@ fn verb_is_due(word: &str, is: &str, verb: &str) -> Diagnostic {
     let list = if verb.starts_with("fit network") { "lptn fit --help" } else { "lptn help" };
     let help = format!("`lptn {verb} {}`, or another command: `{list}` lists them", quoted(word));
     Diagnostic::error("input::no_verb", message).help(help)
+}
+
+/// A word that is not a verb.
+fn no_verb(word: &str) -> Diagnostic {
+    let problem = Diagnostic::error("input::no_verb", format!("there is no command `{word}`"));
+    let inner = verb_words().into_iter().next().map_or(String::new(), |verb| format!(" {verb}"));
+    problem.help(format!("`lptn{inner} --help` lists the commands"))
 }
 
 /// A word that is nearly a verb.

@@ -2,7 +2,7 @@
 
 use lptn_answer::belief::Belief;
 use lptn_answer::failure::Failure;
-use lptn_answer::input::Input;
+use lptn_answer::input::{Input, parse, read};
 
 use crate::arguments;
 use crate::options::{Source, Times};
@@ -15,8 +15,8 @@ pub(crate) trait Load: Sized {
     /// Reads the netlist with values that a fit found: the load case and `--set` go before them.
     fn load_from(source: &Source, belief: &Belief<'_>) -> Result<Self, Failure>;
 
-    /// Gives the run the times of the command line.
-    fn set_run_times(&mut self, times: &Times) -> Result<(), Failure>;
+    /// Reads the netlist with the times of the command line for its run.
+    fn load_run(source: &Source, times: &Times, belief: &Belief<'_>) -> Result<Self, Failure>;
 }
 
 impl Load for Input {
@@ -29,7 +29,11 @@ impl Load for Input {
         Ok(Self { command: arguments::words(), ..input })
     }
 
-    fn set_run_times(&mut self, times: &Times) -> Result<(), Failure> {
-        self.set_times(times.stop.as_deref(), times.every.as_deref())
+    fn load_run(source: &Source, times: &Times, belief: &Belief<'_>) -> Result<Self, Failure> {
+        let text = read(&source.file)?;
+        let netlist = parse(&text)?;
+        let times = [times.stop.as_deref(), times.every.as_deref()];
+        let input = Self::of_run((text, netlist), (belief, times), source.settings())?;
+        Ok(Self { command: arguments::words(), ..input })
     }
 }

@@ -53,7 +53,9 @@ pub fn run(words: Vec<OsString>) -> u8 {
         Ok(args) => args,
         Err(error) => return command::refuse(&error) as u8,
     };
-    let report = args.verb.as_ref().and_then(Verb::report).or(args.always.global.report.clone());
+    let named = args.always.global.report.clone();
+    let file = named.as_ref().and_then(Option::as_ref);
+    let report = args.verb.as_ref().and_then(|verb| verb.report(file)).or(named.clone());
     let console = Console::new(&args.always.global, report);
     let outcome = panic_net::caught(|| dispatch(&args, &console));
     let refused = |failure: Failure| {
@@ -85,6 +87,11 @@ fn dispatch(args: &Args, console: &Console) -> Result<Exit, Failure> {
             console.message(&command::help());
             Ok(Exit::Input)
         }
+        Some(verb) if names_two_files(verb, args) => {
+            let option = verb.names_its_file().unwrap_or_default();
+            let message = format!("-o and {option} name two files, and one is written");
+            Err(Failure::refused("input::two_files", message, format!("leave -o or {option} out")))
+        }
         Some(verb) if console.plot.is_some() && !verb.is_drawn() => {
             Err(drawing::nothing(verbs::DRAWN))
         }
@@ -95,6 +102,16 @@ fn dispatch(args: &Args, console: &Console) -> Result<Exit, Failure> {
             }
             exit => Ok(exit),
         },
+    }
+}
+
+/// True if the only file of a verb is named by its own option and by one of all verbs.
+fn names_two_files(verb: &Verb, args: &Args) -> bool {
+    let global = &args.always.global;
+    match verb.names_its_file() {
+        Some("--report") => matches!(&global.report, Some(Some(_))),
+        Some(_) => global.plot.is_some(),
+        None => false,
     }
 }
 

@@ -198,6 +198,10 @@ fn wrong_input_ends_with_2() {
     folder.write("flat.csv", "t [s],ring [degC]\n0,25\n1,25\n2,25\n3,25\n4,25\n");
     step(&["flat.csv"]).says("record::constant").says("fit::no_column");
     step(&["flat.csv", "--column", "ring"]).says("fit::flat");
+    folder.write("unit.csv", "t [s];ring °C;lid in °C\n0;25;20\n1;26;21\n2;27;22\n");
+    step(&["unit.csv"])
+        .says("fit::no_column")
+        .says("--unit \"ring °C=degC\" --unit \"lid in °C=degC\"");
     folder.write("bad.csv", "t [s],ring\n0,25\n");
     step(&["bad.csv"]).says("record::no_unit").says("`ring [degC]`");
 }

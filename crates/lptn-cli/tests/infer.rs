@@ -56,7 +56,11 @@ fn a_power_is_found_before_and_behind_a_step() {
     }
     let json = folder.run(&["infer", "body.toml", "power", "--format", "json"]).exits(0).json();
     assert_eq!(json["determined"], serde_json::json!(true));
-    assert!((json["courses"]["P"]["mean"]["value"].as_f64().unwrap() - 200.0).abs() < 3.0);
+    let between = &json["jumps"][0]["between"];
+    assert_eq!((&between[0]["unit"], &between[1]["unit"]), (&"s".into(), &"s".into()));
+    let [from, to] = [0, 1].map(|end| between[end]["value"].as_f64().unwrap());
+    assert!(from <= 600.0 && 600.0 <= to, "{between}");
+    assert!((json["signals"]["P"]["mean"]["value"].as_f64().unwrap() - 200.0).abs() < 3.0);
     assert_eq!(json["moments"]["rows"].as_array().unwrap().len(), 121);
 }
 
@@ -175,7 +179,7 @@ fn a_band_that_is_as_wide_as_is_said_is_an_answer() {
     let white = "0.3 K\"\ndrift = \"0 K\"\ndrift_time = \"1 s\"";
     let study = SAID.replace("0.03 K\"", white);
     let run = folder(&study).run(&["infer", "body.toml", "--format", "json"]).exits(0).json();
-    let deviation = run["courses"]["P"]["end"]["sd"].as_f64().unwrap();
+    let deviation = run["signals"]["P"]["end"]["sd"].as_f64().unwrap();
     assert!((deviation - 35.640_694).abs() < 1e-4, "{deviation}");
     for (offset, code) in [("free", 1), ("0 ± 3 K", 0), ("0 ± 300 K", 1)] {
         let sensor = format!("[sensor]\ntc = {{ offset = \"{offset}\" }}\n");

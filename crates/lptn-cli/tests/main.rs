@@ -61,6 +61,7 @@ mod over_time;
 mod own_units;
 #[path = "../../../tests/support/pages.rs"]
 mod pages;
+mod pasted;
 mod periodic;
 #[path = "common/picture.rs"]
 mod picture;

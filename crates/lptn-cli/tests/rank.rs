@@ -56,6 +56,17 @@ fn what_cannot_be_ranked_is_said() {
     assert!(ran.exits(2).err.contains("steady::no_boundary"));
 }
 
+/// A parameter that changes nothing is listed: steady states do not depend on capacities.
+#[test]
+fn a_parameter_without_effect_is_listed() {
+    let text = format!("{}\n", CHAIN.replace("[param]\n", "[param]\nspare = \"3 W\"\n"));
+    let folder = Folder::with("chain.toml", &text);
+    folder.run(&["rank", "chain.toml"]).exits(0).prints("no effect on core: `spare`");
+    let rows = folder.json("rank chain.toml").exits(0).json()["rows"].clone();
+    let row = rows.as_array().unwrap().iter().find(|row| row[0] == "spare").unwrap();
+    assert_eq!(row.as_array().unwrap().last().unwrap().as_f64(), Some(0.0));
+}
+
 /// Where something switches there are no derivatives by parameters, which is said.
 #[test]
 fn parameters_that_are_not_ranked_are_told() {

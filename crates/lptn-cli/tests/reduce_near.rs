@@ -1,5 +1,7 @@
 //! `lptn reduce --at`, as a user meets it.
 
+use std::path::Path;
+
 use crate::common;
 
 use common::Folder;
@@ -43,6 +45,27 @@ fn a_glowing_ball_is_one_node_near_its_steady_state() {
     assert!((scalar(&json["at"]["tried"]["heat"]) / missed - 1.0).abs() < 1e-6);
     let at = folder.run(&["reduce", "glow.toml", "--port", "ball", "--at", "30s"]).exits(0);
     at.prints("near the state at 30 s it collapses to one node");
+}
+
+/// Natural convection at rest carries no heat per K: `h` falls to 0 with dT^(1/3), so heat flows
+/// have no slope, and both commands have to say so of the same state.
+#[test]
+fn a_state_without_slopes_is_neither_reduced_nor_verified() {
+    let networks = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../networks");
+    let file = networks.join("natural_convection.toml");
+    let file = file.to_str().unwrap();
+    let folder = Folder::empty();
+    let reduced = folder.run(&["reduce", file, "--port", "wall", "--at", "steady"]).exits(1);
+    assert!(!reduced.out.contains("exactly") && !reduced.out.contains("use R_eq"));
+    reduced.prints("near the steady state it does not collapse: heat flows are not linear there");
+    let words = ["reduce", file, "--port", "wall", "--at", "steady", "--format", "json"];
+    let json = folder.run(&words).exits(1).json();
+    assert_eq!(
+        (&json["verdict"]["collapses"], &json["verdict"]["error"]),
+        (&false.into(), &Value::Null)
+    );
+    folder.run(&["verify", file, "--at", "steady"]).exits(1).prints("not verified");
+    folder.run(&["modes", file, "--at", "steady"]).prints("heat flows are not linear there");
 }
 
 #[test]

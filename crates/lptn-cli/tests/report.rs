@@ -205,6 +205,26 @@ fn a_page_of_results_says_whether_they_are_what_their_run_gives() {
     claim("not run again: lump.toml is not here", 0);
 }
 
+/// One page is written, into the file that is named by either option.
+#[test]
+fn a_page_of_results_goes_into_the_file_that_is_named() {
+    let folder = lump();
+    assert_eq!(folder.run(&["run", "lump.toml"]).code, Some(0));
+    let ran = folder.run(&["report", "out/lump", "--report=named.html"]);
+    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    assert!(folder.read("named.html").starts_with("<!doctype html>"));
+    assert!(!folder.files().contains(&"out/lump/report.html".to_owned()));
+    for words in [
+        &["report", "out/lump", "-o", "a.html", "--report=b.html"][..],
+        &["plot", "lump.toml", "-o", "a.svg", "--plot", "b.svg"],
+    ] {
+        let ran = folder.run(words);
+        assert_eq!(ran.code, Some(2), "{}", ran.err);
+        assert!(ran.err.contains("input::two_files"), "{}", ran.err);
+    }
+    assert!(folder.files().iter().all(|file| !file.starts_with("a.") && !file.starts_with("b.")));
+}
+
 /// What a parameter does to a run from the start is not what it does to a settled cycle.
 #[test]
 fn a_settled_cycle_has_no_derivatives_of_another_run() {

@@ -62,6 +62,59 @@ fn times_that_do_not_fit_are_refused_by_their_option() {
     }
 }
 
+/// Times of the command line replace those of the file before anything is checked: 600 d in rows of
+/// 5 s are 10 368 000 rows, and in rows of 1 h they are 14 400 and the first.
+#[test]
+fn what_an_option_replaces_is_not_checked() {
+    let text = LUMP.split("[run]").next().unwrap().replacen("\n", "\n[param]\nend = '300 s'\n", 1);
+    let folder = Folder::with(
+        "lump.toml",
+        &format!("{text}[run]\nstop = 'end'\noutput = {{ every = '5 s' }}\n"),
+    );
+    let given = ["run", "lump.toml", "--no-files", "--format", "csv", "--select", "lump.T"];
+    for long in [["--stop", "600 d"], ["--set", "end=600 d"]] {
+        let refused = folder.run(&[&given[..], &long[..]].concat()).exits(2);
+        refused.says("netlist::too_many_rows").says("10368000 rows");
+        let ran = folder.run(&[&given[..], &long[..], &["--every", "1 h"]].concat()).exits(0);
+        assert_eq!(csv(&ran.out).1.len(), 14_401);
+    }
+}
+
+/// An option of other commands is named with them; one that is nearly right is corrected. Every
+/// error of usage has its code.
+#[test]
+fn an_option_that_a_command_does_not_have_is_explained() {
+    let folder = Folder::with("lump.toml", LUMP);
+    let cases: [(&[&str], &str, &str); 9] = [
+        (
+            &["steady", "lump.toml", "--uncertainty"],
+            "input::no_option",
+            "belongs to `lptn run`, `lptn compare`",
+        ),
+        (&["steady", "lump.toml", "--stop", "5min"], "input::no_option", "belongs to `lptn run`"),
+        (&["rank", "lump.toml", "--every", "5s"], "input::no_option", "belongs to `lptn run`"),
+        (
+            &["run", "lump.toml", "--toleranc", "1K"],
+            "input::no_option",
+            "did you mean `--tolerance`?",
+        ),
+        (&["run", "lump.toml", "--qiet"], "input::no_option", "did you mean `--quiet`?"),
+        (&["wat"], "input::no_verb", "`lptn --help` lists the commands"),
+        (&["size", "--power", "223W"], "input::usage", "--limit <T>"),
+        (&["run"], "input::usage", "`lptn run --help` lists its options"),
+        (
+            &["run", "lump.toml", "--format", "xml"],
+            "input::usage",
+            "possible values: table, csv, json",
+        ),
+    ];
+    for (words, code, help) in cases {
+        let ran = folder.run(words).exits(2).says(&format!("error[{code}]"));
+        let err = ran.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(err.contains(help), "{words:?}: {err}");
+    }
+}
+
 /// The former words do what they did, and name the new ones.
 #[test]
 fn former_words_of_set_up_work() {

@@ -151,7 +151,7 @@ const ANSWERS: [(&str, &str, &[&str]); 20] = [
 ];
 
 /// Objects whose keys are names of a netlist or codes, by the end of their path.
-const MAPS: [&str; 30] = [
+const MAPS: [&str; 29] = [
     ".proven",
     ".proven_heat",
     ".values",
@@ -181,11 +181,10 @@ const MAPS: [&str; 30] = [
     ".wanted",
     ".most_by",
     ".whiteness",
-    ".courses",
 ];
 
 /// The same by their whole path.
-const ROOT_MAPS: [&str; 1] = [".systematic"];
+const ROOT_MAPS: [&str; 2] = [".systematic", ".signals"];
 
 /// The values that are seen at one place.
 #[derive(Default)]

@@ -5,7 +5,7 @@ use lptn_units::{Dimension, Type, suggest};
 use crate::diagnostic::Diagnostic;
 use crate::dialect::Dialect;
 use crate::head::{Asked, Head, Header, Row, Wrong, quoted};
-use crate::hints::{other_brackets, text_help};
+use crate::hints::{other_brackets, text_help, unit_option};
 use crate::numeral::Decimal;
 use crate::words::nearest;
 
@@ -28,15 +28,21 @@ impl Head {
             return self.nameless(wanted.unwrap_or(time), &Asked::default());
         }
         let problem = Diagnostic::error("record::no_unit", format!("column `{name}` has no unit"));
+        let option = unit_option(name, wanted.unwrap_or(Type::ABSOLUTE_TEMPERATURE));
         if let Some((bare, unit)) = other_brackets(name) {
-            return problem.help(format!("write its unit in square brackets: `{bare} [{unit}]`"));
+            return problem.help(format!(
+                "write its unit in square brackets: `{bare} [{unit}]` (a command: `{option}`)"
+            ));
         }
         let unit = wanted.unwrap_or(Type::ABSOLUTE_TEMPERATURE).usual_unit();
         let help = format!("give it in the header: `{name} [{unit}]`");
         let key = quoted(name);
         problem.help(match wanted {
             _ if self.dialect != Dialect::PLAIN => {
-                format!("{help}, or by `units = {{ {key} = \"{unit}\" }}` next to `csv`")
+                format!(
+                    "{help}, or by `units = {{ {key} = \"{unit}\" }}` next to `csv` (a command: \
+                     `{option}`)"
+                )
             }
             Some(_) => help,
             None => format!("{help}; a plain number is `{name} [-]`"),

@@ -1,6 +1,6 @@
 //! The codes of problems of a CSV file, and help for its cells.
 
-use lptn_units::Unit;
+use lptn_units::{Type, Unit};
 
 /// The codes of the problems of a file.
 #[derive(Debug)]
@@ -64,13 +64,27 @@ pub(crate) const NETLIST: &Codes = &Codes {
     read_as: "netlist::csv_read_as",
 };
 
-/// The name and the unit of `ring (degC)`, `ring/degC`, `ring_degC`.
+/// The name and the unit of `ring (degC)`, `ring/degC`, `ring_degC`, `ring in degC`.
 pub(crate) fn other_brackets(name: &str) -> Option<(&str, &str)> {
     let at = name.find(['(', '/', ',', '{']).or_else(|| name.rfind(['_', ' ']))?;
     let (bare, unit) = name.split_at(at);
     let unit = unit.trim_matches(['(', ')', '/', ',', '{', '}', '_', ' ']);
     let unit = if matches!(unit, "C" | "°C") { "degC" } else { unit };
-    (!bare.trim().is_empty() && Unit::parse(unit).is_ok()).then_some((bare.trim(), unit))
+    let bare = bare.trim();
+    let bare = bare.strip_suffix(" in").unwrap_or(bare).trim_end();
+    (!bare.is_empty() && Unit::parse(unit).is_ok()).then_some((bare, unit))
+}
+
+/// `--unit ring=degC`, for a column without a unit: the one that its name ends in, else that of
+/// `wanted`.
+pub fn unit_option(name: &str, wanted: Type) -> String {
+    let unit = other_brackets(name).map(|(_, unit)| unit.to_owned());
+    let statement = format!("{name}={}", unit.unwrap_or_else(|| wanted.usual_unit()));
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_-.=/".contains(c);
+    match statement.chars().all(plain) {
+        true => format!("--unit {statement}"),
+        false => format!("--unit \"{}\"", statement.replace('"', "\\\"")),
+    }
 }
 
 /// Help for a text in a cell that needs a number.

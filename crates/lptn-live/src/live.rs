@@ -166,7 +166,6 @@ fn input(contents: &Value) -> Result<Input, Failure> {
     let stem = Path::new(&name).file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let given = Given { bytes, name, stem: stem.unwrap_or_else(|| "netlist".into()) };
     let (case, set) = (contents["case"].as_str(), texts(&contents["set"]));
-    let mut input = Input::of((given, netlist), &Belief::Named, (case, &set))?;
-    input.set_times(contents["stop"].as_str(), contents["every"].as_str())?;
-    Ok(input)
+    let times = ["stop", "every"].map(|name| contents[name].as_str());
+    Input::of_run((given, netlist), (&Belief::Named, times), (case, &set))
 }

@@ -37,7 +37,7 @@ pub(crate) const RUN: SectionDeclaration = SectionDeclaration {
             "when rows are written: at intervals of `every`, or `at` listed times",
             "{ every = \"5 s\" }",
         )
-        .or("300 rows"),
+        .or("301 rows"),
         names("select", "list of patterns", "which columns are written", "[\"*.T\"]").or("all"),
         shaped(
             "report",
@@ -407,6 +407,6 @@ fn too_many(setting: &Setting, rows: f64) -> Diagnostic {
         "netlist::too_many_rows",
         message,
         &setting.span,
-        "write a longer time, or leave `output` out for 300 rows",
+        "write a longer time, or leave `output` out for 301 rows",
     )
 }

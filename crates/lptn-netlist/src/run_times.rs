@@ -20,36 +20,51 @@ pub enum RunTime {
 pub fn option;
 }
 
+/// A time of the run as it was written, and in s.
+pub type GivenTime<'t> = (RunTime, &'t str, f64);
+
 impl Netlist {
-    /// Gives the run another time of `seconds`, written as `text`. Nothing changes on an error, nor
-    /// without a `[run]`.
+    /// Gives the run other times. Nothing changes on an error, nor without a `[run]`.
     ///
     /// # Errors
-    /// [`Rejected`] if the time does not suit `[run]`: a run that ends before it begins, a window
+    /// [`Rejected`] if the times do not suit `[run]`: a run that ends before it begins, a window
     /// or a row outside of it, a signal that ends earlier, too many rows.
-    pub fn set_run_time(
-        &mut self,
-        which: RunTime,
-        text: &str,
-        seconds: f64,
-    ) -> Result<(), Rejected> {
-        let Some(mut plan) = self.plan.clone() else { return Ok(()) };
-        let mut files = self.files.clone();
-        let file = files.add(which.option(), text);
-        let setting = Setting {
-            value: Value::Constant(seconds),
-            span: Span::new(file, 0..text.len()),
-            words: format!("`{}`", which.option()),
-            unit: "s".into(),
-            help: format!("write it like this: {} \"10 min\"", which.option()),
-        };
-        match which {
-            RunTime::Stop => plan.stop = setting,
-            RunTime::Every => plan.output = Some(OutputPlan::Every(setting)),
+    pub fn set_run_times(&mut self, times: &[GivenTime<'_>]) -> Result<(), Rejected> {
+        let before = (self.plan.clone(), self.files.clone());
+        self.replace_run_times(times);
+        let run = self.plan.as_ref().map(|plan| plan.settings(&self.network)).transpose();
+        match run {
+            Ok(run) => {
+                self.run = run;
+                Ok(())
+            }
+            Err(problems) => {
+                let (plan, files) = before;
+                self.plan = plan;
+                let files = std::mem::replace(&mut self.files, files);
+                Err(Rejected::arranged(files, problems, 0))
+            }
         }
-        let run = plan.settings(&self.network);
-        let run = run.map_err(|diagnostics| Rejected::arranged(files.clone(), diagnostics, 0))?;
-        (self.plan, self.run, self.files) = (Some(plan), Some(run), files);
-        Ok(())
+    }
+
+    /// Replaces times of the run unchecked. [`Netlist::set`], [`Netlist::take_case`] and
+    /// [`Netlist::set_run_times`] check them together with the parameters that they set, since
+    /// both may belong together.
+    pub fn replace_run_times(&mut self, times: &[GivenTime<'_>]) {
+        let Some(plan) = &mut self.plan else { return };
+        for &(which, text, seconds) in times {
+            let file = self.files.add(which.option(), text);
+            let setting = Setting {
+                value: Value::Constant(seconds),
+                span: Span::new(file, 0..text.len()),
+                words: format!("`{}`", which.option()),
+                unit: "s".into(),
+                help: format!("write it like this: {} \"10 min\"", which.option()),
+            };
+            match which {
+                RunTime::Stop => plan.stop = setting,
+                RunTime::Every => plan.output = Some(OutputPlan::Every(setting)),
+            }
+        }
     }
 }

@@ -77,10 +77,27 @@ pub struct Tried {
     pub heat: f64,
     /// The same over the largest heat that the disturbance brings into any node.
     pub share: f64,
+    /// The same share for a disturbance of a hundredth of the size.
+    pub small: f64,
+    /// True if heat flows have slopes there: the share falls with the size.
+    pub has_slopes: bool,
 }
 
-/// The largest temperature in K of the disturbance that a linear network is tried with.
-const DISTURBANCE: f64 = 10.0;
+/// Temperatures in K of disturbances that a linear network is tried with.
+pub(crate) const SIZES: [f64; 3] = [10.0, 1.0, 0.1];
+
+/// The share of a disturbance that is missed has to fall at least this many times from the second
+/// size to the third, which is a tenth of it: near a state where heat flows have slopes it falls
+/// ten times.
+const FALLS: f64 = 5.0;
+
+/// A missed share of the heat below this is rounding.
+const ROUNDING: f64 = 1e-6;
+
+/// True if the missed share of the third size is small enough next to that of the second.
+pub(crate) fn falls(second: f64, third: f64) -> bool {
+    FALLS * third <= second
+}
 
 impl<'a> Linearised<'a> {
     /// A network that is linear, streams of constant capacity rates among its paths, or else near a
@@ -222,11 +239,8 @@ impl<'a> Linearised<'a> {
     }
 
     /// Compares the heat of a disturbance of the unknowns in K, and of its opposite, with that of
-    /// the full network.
-    ///
-    /// # Errors
-    /// [`InputError`] if the full network has no value there.
-    pub fn tried(&mut self, disturbance: &[f64]) -> Result<Tried, InputError> {
+    /// the full network: the largest difference in W, and its share.
+    fn missed(&mut self, disturbance: &[f64]) -> Result<(f64, f64), InputError> {
         let size = disturbance.len();
         let (mut here, mut there) = (vec![0.0; size], vec![0.0; size]);
         self.system.flow(&mut self.work, &self.at, &mut here)?;
@@ -243,23 +257,30 @@ impl<'a> Linearised<'a> {
         let most = |values: &[f64]| values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
         let brought = most(&linear);
         let share = if brought > 0.0 { off / brought } else { 0.0 };
-        Ok(Tried { disturbance: most(disturbance), heat: off, share })
+        Ok((off, share))
     }
 
-    /// The same for temperatures of all nodes with this shape, the largest of them 10 K; `None` for
-    /// a network that is linear itself.
+    /// Compares the heat of a disturbance of all nodes with this shape, and of its opposite, with
+    /// that of the full network. The largest temperature is 10 K, then 1 K and 0.1 K. `None` for a
+    /// network that is linear itself.
     ///
     /// # Errors
-    /// As [`Linearised::tried`].
+    /// [`LinearisedError::Input`] if the full network has no value there.
     pub fn tried_along(&mut self, shape: &[f64]) -> Result<Option<Tried>, LinearisedError> {
         if is_proportional(self.system) {
             return Ok(None);
         }
         let largest = shape.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let unknowns = self.system.unknowns().iter();
-        let disturbance: Vec<f64> =
-            unknowns.map(|id| DISTURBANCE * shape[id.index()] / largest).collect();
-        Ok(Some(self.tried(&disturbance)?))
+        let along = |size: f64| -> Vec<f64> {
+            let unknowns = self.system.unknowns().iter();
+            unknowns.map(|id| size * shape[id.index()] / largest).collect()
+        };
+        let [large, medium, little] = SIZES.map(along);
+        let (heat, share) = self.missed(&large)?;
+        let (second, small) = (self.missed(&medium)?.1, self.missed(&little)?.1);
+        let has_slopes = small <= ROUNDING || falls(second, small);
+        let disturbance = large.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        Ok(Some(Tried { disturbance, heat, share, small, has_slopes }))
     }
 }
 

@@ -36,7 +36,7 @@ pub use gears::{GearError, GearPoint, GearState, GearTask, MemberState, MeshTeet
 pub use gradient::{GradientError, Gradients};
 pub use manifest::{Environment, FileHash, Manifest, ParameterRecord, RunEnd, Sundials};
 pub use moment::utc;
-pub use rank::{RankError, Ranking, effect};
+pub use rank::{RankError, Ranking, effect, has_effect};
 pub use record::{LedgerRecord, SiValue, StatisticsRecord};
 pub use size::{
     Aim, Choice, ChoiceTask, Choices, Coolant, CoolantFlow, Cooling, CoolingError, CoolingTask,

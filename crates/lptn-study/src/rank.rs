@@ -55,7 +55,7 @@ pub struct Ranking {
     pub temperature: f64,
     /// When it is highest in a run, in s.
     pub at: Option<f64>,
-    /// Effects of parameters, the largest first.
+    /// Effects of parameters, the largest first; those without effect have 0.
     pub parameters: Vec<Influence>,
     /// Why parameters are not ranked, if the network has no derivatives by them.
     pub not_ranked: Option<String>,
@@ -105,7 +105,7 @@ impl Ranking {
             node,
             temperature,
             at: None,
-            parameters: sorted(parameters, temperature),
+            parameters: all_sorted(parameters, temperature),
             not_ranked,
             fixed,
             elements: sorted(adjoint.influences()?, temperature),
@@ -146,7 +146,7 @@ impl Ranking {
             Gradient::Exact => None,
             Gradient::Differences(why) => Some(why.to_string()),
         };
-        let parameters = sorted(parameters, temperature);
+        let parameters = all_sorted(parameters, temperature);
         Ok(Self {
             node,
             temperature,
@@ -218,10 +218,27 @@ fn free(network: &Network) -> (Vec<ParameterId>, Vec<(ParameterId, ChangeError)>
 }
 
 /// Influences above rounding, the largest first; equal ones stay in their order.
-fn sorted(mut influences: Vec<Influence>, temperature: f64) -> Vec<Influence> {
-    influences.retain(|influence| effect(influence).abs() > ROUNDING * temperature);
+fn sorted(influences: Vec<Influence>, temperature: f64) -> Vec<Influence> {
+    let mut all = all_sorted(influences, temperature);
+    all.retain(has_effect);
+    all
+}
+
+/// The same with those that are rounding, as 0.
+fn all_sorted(mut influences: Vec<Influence>, temperature: f64) -> Vec<Influence> {
+    for influence in &mut influences {
+        if effect(influence).abs() <= ROUNDING * temperature {
+            influence.change = 0.0;
+        }
+    }
+    influences.retain(|influence| !influence.change.is_nan());
     influences.sort_by(|a, b| effect(b).abs().total_cmp(&effect(a).abs()));
     influences
+}
+
+/// True if a value changes the temperature.
+pub fn has_effect(influence: &Influence) -> bool {
+    influence.change.abs() > 0.0
 }
 
 /// Change of the temperature in K if a value is 10 % larger, or a temperature 1 K higher.

@@ -6,7 +6,7 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Netlist, parse};
 use lptn_network::Item;
 use lptn_solve::{Influence, Proceed, SteadyState};
-use lptn_study::{RankError, Ranking, effect};
+use lptn_study::{RankError, Ranking, effect, has_effect};
 
 fn read(text: &str) -> Netlist {
     parse("rank.toml", text).unwrap_or_else(|rejected| panic!("{rejected}"))
@@ -64,8 +64,8 @@ fn a_chain_is_ranked_by_its_temperature_drops() {
     near(parameters("P"), 3.0);
     near(parameters("G"), -2.5);
     near(parameters("T_air"), 1.0);
-    // what does nothing is not there, and the most comes first
-    assert_eq!((ranking.parameters.len(), ranking.elements.len()), (3, 4));
+    // an element that does nothing is not there, a parameter is; the most comes first
+    assert_eq!((ranking.parameters.len(), ranking.elements.len()), (4, 4));
     let sizes: Vec<f64> = ranking.elements.iter().map(|i| effect(i).abs()).collect();
     assert!(sizes.is_sorted_by(|a, b| a >= b), "{sizes:?}");
     assert!(ranking.feedback.is_none());
@@ -184,7 +184,10 @@ fn a_peak_before_a_jump_is_ranked_on_its_own_side() {
     let ranking = of_run(&netlist).unwrap();
     let exact = 10.0 * (0.5 - 0.3 * f64::exp_m1(-2.0));
     assert!((change(&netlist, &ranking.parameters, "P_high") - exact).abs() < 1e-4);
-    assert_eq!(ranking.parameters.len(), 1, "P_low does nothing");
+    // P_low comes too late: it is listed, and does nothing
+    let idle = ranking.parameters.iter().filter(|influence| !has_effect(influence));
+    assert_eq!((idle.count(), ranking.parameters.len()), (1, 2));
+    assert_eq!(change(&netlist, &ranking.parameters, "P_low").to_bits(), 0);
 }
 
 /// Teeth are counted, so no value next to theirs has a run; the rest is ranked, in steady state, with

@@ -359,7 +359,13 @@ fn errors_of_absolute_temperatures() {
         };
     }
     check_wrong(&[
-        ("T + T_amb", None, code, "T_amb", Some("write \"kelvin(T) + kelvin(T_amb)\"")),
+        (
+            "T + T_amb",
+            None,
+            code,
+            "T_amb",
+            both!("kelvin(T) + kelvin(T_amb)", "T + (T_amb - 0 [degC])"),
+        ),
         ("T_amb + 5 [degC]", None, code, "5 [degC]", Some("write \"T_amb + 5 [K]\"")),
         ("2 * T", None, code, "T", both!("2 * kelvin(T)", "2 * (T - 0 [degC])")),
         ("2 * 20 [degC]", None, code, "20 [degC]", Some("write \"2 * 20 [K]\"")),
@@ -413,6 +419,25 @@ fn what_is_offered_has_the_value_that_is_meant() {
         let offered = help.split('"').nth(1).unwrap();
         let found = program(offered).eval(&values(), &mut Vec::new()).unwrap();
         assert!((found - expected).abs() < 1e-9, "{text}: {offered} is {found}, not {expected}");
+    }
+}
+
+/// Both texts that are offered are temperatures where one is due; T is 350 K = 76.85 degC, T_amb
+/// 300 K, by hand.
+#[test]
+fn both_offers_are_temperatures_where_one_is_due() {
+    for (text, from_zero, from_ice) in [
+        ("2 * T", 700.0, 273.15 + 153.7),
+        ("T / 2", 175.0, 273.15 + 38.425),
+        ("T + T_amb", 650.0, 273.15 + 103.7),
+    ] {
+        let help = compile(text, Some(ABSOLUTE)).unwrap_err()[0].help().unwrap();
+        for (place, expected) in [(1, from_zero), (3, from_ice)] {
+            let offered = help.split('"').nth(place).unwrap();
+            assert_eq!(compile(offered, Some(ABSOLUTE)).unwrap().ty(), ABSOLUTE, "{offered}");
+            let found = program(offered).eval(&values(), &mut Vec::new()).unwrap();
+            assert!((found - expected).abs() < 1e-9, "{text}: {offered} is {found}");
+        }
     }
 }
 

@@ -14,10 +14,12 @@ use lptn_study::{GearError, GearPoint, GearState, GearTask};
 use lptn_units::{Dimension, Problem as _, Type, Unit};
 
 use crate::answer::Answer;
+use crate::example;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
-use crate::input::{self, Input, Studies};
+use crate::input::{self, Input};
 use crate::ranges;
+use crate::studies::Studies;
 
 /// Most points of a question: no one reads more.
 const MOST_POINTS: usize = 1000;
@@ -25,12 +27,11 @@ const MOST_POINTS: usize = 1000;
 /// Default speeds at which gears are evaluated, as shares of their own speed.
 const FIFTHS: [f64; 5] = [0.2, 0.4, 0.6, 0.8, 1.0];
 
-const GEARBOXES: Studies<'_> = Studies {
+const GEARBOXES: Studies = Studies {
     section: "gearbox",
     codes: ["gear::no_gearbox", "gear::which_gearbox"],
     question: "gears are described in a gearbox",
-    example: "[gearbox.stage]\nteeth = { sun = 18, planet = 42, ring = 102 }\nplanets = 3\nspeed = \
-              \"7000 rpm\"\ninto = \"steel\"",
+    example: example::gearbox,
 };
 
 /// The question for speeds, torques and losses of gears. Quantities are text with their units.

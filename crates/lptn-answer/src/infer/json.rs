@@ -6,8 +6,12 @@ use serde_json::{Map, Value, json};
 
 use super::InferAnswer;
 
+fn seconds(time: f64) -> SiValue {
+    SiValue::new(time, "s")
+}
+
 impl InferAnswer {
-    pub(super) fn courses_json(&self) -> Value {
+    pub(super) fn signals_json(&self) -> Value {
         let one = |j: usize| {
             let (sought, course) = (&self.task.sought[j], &self.found.courses[j]);
             let unit = self.units[j].ty.dimension.si_unit();
@@ -16,8 +20,8 @@ impl InferAnswer {
             let member = json!({
                 "mean": course.mean.map(known),
                 "end": known(self.at_end(j)),
-                "still": known(course.still.0),
-                "still_log_likelihood": course.still.1,
+                "constant": known(course.still.0),
+                "constant_log_likelihood": course.still.1,
                 "intensity": course.intensity,
                 "slope_intensity": course.slope_intensity,
                 "positive": sought.positive,
@@ -34,7 +38,7 @@ impl InferAnswer {
             let unit = if sought.positive { "1".to_owned() } else { own };
             json!({
                 "signal": sought.name,
-                "between": [jump.between.0, jump.between.1],
+                "between": [seconds(jump.between.0), seconds(jump.between.1)],
                 "by": { "value": jump.by.value, "sd": jump.by.deviation, "unit": unit },
                 "log_likelihood_without": self.found.log_likelihood - jump.gain,
             })
@@ -75,7 +79,9 @@ impl InferAnswer {
             json!({
                 "column": column.name,
                 "sigma": SiValue::new(found.sigma, "K"),
-                "slow": found.slow.map(|(sd, time)| json!({ "sd": sd, "unit": "K", "time": time })),
+                "slow": found.slow.map(|(sd, time)| {
+                    json!({ "sd": sd, "unit": "K", "time": seconds(time) })
+                }),
                 "samples": found.readings,
                 "surprise_rms": found.rms,
                 "surprise_mean": found.mean,

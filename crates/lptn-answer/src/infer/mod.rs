@@ -13,10 +13,12 @@ use lptn_netlist::{Diagnostic, Files, InferStudy};
 use lptn_units::{Type, Unit};
 
 use crate::answer::Answer;
+use crate::example;
 use crate::failure::Failure;
 use crate::fit::network::record_place;
-use crate::input::{Input, Studies};
+use crate::input::Input;
 use crate::listener::Listener;
+use crate::studies::Studies;
 
 pub use follow::{FollowedRows, Following};
 
@@ -122,12 +124,11 @@ fn task(input: &Input, study: &InferStudy) -> Result<InferTask, Failure> {
     InferTask::of(&input.netlist, study).map_err(|error| failed(input, study, &error))
 }
 
-const STUDIES: Studies<'_> = Studies {
+const STUDIES: Studies = Studies {
     section: "infer",
     codes: ["infer::no_study", "infer::which_study"],
     question: "an inference needs a record and the signals to estimate",
-    example: "[infer.power]\ndata = \"record.csv\"\ncolumn = { ring_gear = \"steel.T\" }\n\
-              sigma = \"0.1 K\"\nfind = [\"P\"]",
+    example: example::infer,
 };
 
 fn failed(input: &Input, study: &InferStudy, error: &InferError) -> Failure {

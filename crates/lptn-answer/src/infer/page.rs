@@ -74,7 +74,7 @@ impl Page for InferAnswer {
         json.member("network", &self.input.text.stem)?;
         json.member("study", &self.study.name)?;
         json.member("warnings", &messages::list(&netlist.files, &warnings))?;
-        json.member("courses", &self.courses_json())?;
+        json.member("signals", &self.signals_json())?;
         json.member("jumps", &self.jumps_json())?;
         json.member("sensors", &self.sensors_json())?;
         json.member("parameters", &self.parameters_json())?;

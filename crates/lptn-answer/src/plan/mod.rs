@@ -15,9 +15,11 @@ use lptn_solve::available_threads;
 use lptn_units::Unit;
 
 use crate::answer::Answer;
+use crate::example;
 use crate::failure::Failure;
-use crate::input::{Input, Studies};
+use crate::input::Input;
 use crate::listener::Listener;
+use crate::studies::Studies;
 use crate::taken;
 use crate::unseparated::{Named, names_and_units};
 
@@ -54,13 +56,11 @@ impl Answer for PlanAnswer {
     }
 }
 
-const STUDIES: Studies<'_> = Studies {
+const STUDIES: Studies = Studies {
     section: "plan",
     codes: ["plan::no_study", "plan::which_study"],
     question: "a plan needs parameters to determine, and places for sensors",
-    example: "[plan.next]\nknow = { R_int = \"5 %\" }\n\
-              place = { ring = { of = \"steel.T\", noise = \"0.1 K\" } }\n\
-              every = \"1 s\"\nduration = \"30 min\"",
+    example: example::plan,
 };
 
 impl PlanQuestion {

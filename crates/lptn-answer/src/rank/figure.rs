@@ -12,10 +12,9 @@ const MOST: usize = 12;
 
 impl RankAnswer {
     pub(super) fn figure(&self) -> Figure {
-        let ranking = &self.ranking;
-        let all = [("parameters", &ranking.parameters), ("elements", &ranking.elements)];
-        let panels = all.into_iter().filter(|(_, influences)| !influences.is_empty());
-        let panels = panels.map(|(name, influences)| self.panel(name, influences)).collect();
+        let panels = self.effects().into_iter().filter(|(_, influences)| !influences.is_empty());
+        let panels = panels.map(|(name, influences)| self.panel(&format!("{name}s"), influences));
+        let panels = panels.collect();
         let note = "for 10 % more of each value, 1 K more of a temperature".to_owned();
         Figure { title: self.input.title(), note, panels }
     }

@@ -6,7 +6,7 @@ use lptn_network::{Item, list_of_names};
 use lptn_plot::Figure;
 use lptn_report::{Json, Page, Report, Rows, Text, TextTable, duration, shortened, significant};
 use lptn_solve::{Influence, Table};
-use lptn_study::{SiValue, effect};
+use lptn_study::{SiValue, effect, has_effect};
 use serde_json::{Value, json};
 
 use super::RankAnswer;
@@ -74,6 +74,7 @@ impl RankAnswer {
         if let Some(why) = &self.ranking.not_ranked {
             notes.push(format!("parameters are not ranked: {why}"));
         }
+        notes.extend(self.without_effect());
         notes.extend(self.fixed());
         if let Some(why) = &self.ranking.differences {
             notes.push(format!("by differences of runs, since {why}"));
@@ -85,6 +86,14 @@ impl RankAnswer {
             );
         }
         notes
+    }
+
+    /// Parameters that are numbers and change nothing.
+    fn without_effect(&self) -> Option<String> {
+        let idle = self.ranking.parameters.iter().filter(|influence| !has_effect(influence));
+        let names: Vec<String> = idle.map(|influence| self.name(influence)).collect();
+        (!names.is_empty())
+            .then(|| format!("no effect on {}: {}", self.node(), list_of_names(&names)))
     }
 
     /// Parameters that are not ranked, because a part of them cannot be added.
@@ -105,7 +114,7 @@ impl RankAnswer {
     }
 
     fn verdict(&self) -> String {
-        let own = |all: &'_ [Influence]| all.iter().find(|i| !i.absolute).copied();
+        let own = |all: &'_ [Influence]| all.iter().find(|i| !i.absolute && has_effect(i)).copied();
         let first = own(&self.ranking.parameters);
         let element = own(&self.ranking.elements);
         let size = |i: &Influence| effect(i).abs();
@@ -124,6 +133,13 @@ impl RankAnswer {
         let (more, cooler) = if warmer > 0.0 { ("less", -warmer) } else { ("more", warmer) };
         let name = self.name(influence);
         format!("10 % {more} of {name} makes {} {} K colder", self.node(), significant(-cooler, 3))
+    }
+
+    /// The values that change something: parameters, then values of elements.
+    pub(super) fn effects(&self) -> [(&'static str, &[Influence]); 2] {
+        let parameters = &self.ranking.parameters;
+        let some = parameters.partition_point(has_effect);
+        [("parameter", &parameters[..some]), ("element", &self.ranking.elements)]
     }
 
     fn all(&self) -> Vec<(&'static str, &Influence)> {
@@ -149,11 +165,8 @@ impl Page for RankAnswer {
     fn text(&self) -> Text {
         let mut text = self.input.begun();
         text.line(self.answering());
-        let ranking = &self.ranking;
         let how = "--format csv and json have all";
-        for (heading, influences) in
-            [("parameter", &ranking.parameters), ("element", &ranking.elements)]
-        {
+        for (heading, influences) in self.effects() {
             some_of(&mut text, self.table(heading, influences), (influences.len(), how));
         }
         text.notes(self.notes());

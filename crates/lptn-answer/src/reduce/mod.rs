@@ -286,6 +286,9 @@ impl ReduceAnswer {
     /// Message if the error is larger than allowed; `None` if it is not, or if nothing is judged.
     /// "too large: with C_eq by sum the error reaches 1.2 K (8 %), and 5% is allowed".
     pub fn too_large(&self) -> Option<String> {
+        if self.fails() {
+            return Some(self.verdict());
+        }
         if let Some(kept) = self.loads.kept() {
             return (!kept).then(|| format!("too large: {}", self.verdict()));
         }

@@ -10,7 +10,7 @@ use serde_json::Value;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::listener::Listener;
-use crate::operating_point::OperatingPoint;
+use crate::operating_point::{OperatingPoint, without_slopes};
 
 /// The state, and the check of the linear network near it.
 #[derive(Debug)]
@@ -39,9 +39,24 @@ impl Near {
         let failed = |error| ReduceError::Response(ResponseError::Linearised(error));
         let state = &self.point.state;
         let mut linear = Linearised::of(system, Some(state)).map_err(failed)?;
-        let reduction = Reduction::near(system, port, (&linear, state), options)?;
+        let mut reduction = Reduction::near(system, port, (&linear, state), options)?;
         self.tried = linear.tried_along(&reduction.norton.response).map_err(failed)?;
+        if let Some(dynamics) = reduction.dynamics.as_mut().filter(|_| self.fails().is_some()) {
+            // errors of one node against a linear network that is wrong itself
+            dynamics.pairs.iter_mut().for_each(|pair| pair.step = None);
+            dynamics.recommended.by = None;
+        }
         Ok(reduction)
+    }
+
+    /// Why no linear network describes the state, if none does.
+    pub(super) fn fails(&self) -> Option<String> {
+        self.tried.and_then(without_slopes)
+    }
+
+    /// True if the linear network misses more heat than the disturbance brings, if that is large.
+    pub(super) fn is_coarse(&self) -> bool {
+        self.tried.is_some_and(|tried| tried.share >= 1.0)
     }
 
     /// See [`OperatingPoint::passed`].

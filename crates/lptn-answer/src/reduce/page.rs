@@ -25,7 +25,9 @@ impl Page for ReduceAnswer {
             text.section().table(pairs(dynamics));
             let label = self.pair().and_then(|pair| dynamics.collapses(pair)) == Some(false);
             let label = if label { "nearest: " } else { "use " };
-            text.section().sentence(label, &self.advice(dynamics));
+            if !self.fails() {
+                text.section().sentence(label, &self.advice(dynamics));
+            }
             text.append(self.loads_text());
         }
         match &self.bias {
@@ -39,6 +41,10 @@ impl Page for ReduceAnswer {
 
     fn rows(&self) -> Rows<'_> {
         self.reduction.table().into()
+    }
+
+    fn no(&self) -> Option<String> {
+        self.fails().then(|| self.verdict())
     }
 
     fn figures(&self) -> Vec<Figure> {

@@ -11,10 +11,20 @@ use super::page::error_json;
 impl ReduceAnswer {
     /// "collapses to one node within 0.78 % (0.444 K)".
     pub fn verdict(&self) -> String {
-        match &self.near {
-            Some(near) => format!("near {} it {}", near.name(), self.of_the_linear()),
-            None => self.of_the_linear(),
+        let Some(near) = &self.near else { return self.of_the_linear() };
+        let (name, linear) = (near.name(), self.of_the_linear());
+        match (near.fails(), linear.strip_suffix(", exactly").filter(|_| near.is_coarse())) {
+            (Some(why), _) => format!("near {name} it does not collapse: heat flows {why}"),
+            (None, Some(collapses)) => {
+                format!("near {name} it {collapses} for small disturbances only")
+            }
+            (None, None) => format!("near {name} it {linear}"),
         }
+    }
+
+    /// True if no linear network describes the state, so that nothing is to be used.
+    pub(super) fn fails(&self) -> bool {
+        self.near.as_ref().is_some_and(|near| near.fails().is_some())
     }
 
     fn of_the_linear(&self) -> String {
@@ -62,6 +72,7 @@ impl ReduceAnswer {
         let mut text = Text::new();
         let judged = self.judged();
         let holds = match (self.loads.kept(), &judged) {
+            _ if self.fails() => Some(false),
             (Some(kept), _) => Some(kept),
             (None, Some((_, _, within))) => *within,
             (None, None) => self.reduction.dynamics.is_none().then_some(true),
@@ -111,6 +122,7 @@ impl ReduceAnswer {
         json!({
             "text": self.verdict(),
             "collapses": match &judged {
+                _ if self.fails() => Some(false),
                 None => self.reduction.dynamics.is_none().then_some(true),
                 Some((_, _, within)) => *within,
             },

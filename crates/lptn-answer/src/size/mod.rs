@@ -21,7 +21,7 @@ use std::sync::Arc;
 
 use kept::Kept;
 use lptn_netlist::{Diagnostic, Files, SizeStudy};
-use lptn_network::{Parameter, ParameterId, Value as Given};
+use lptn_network::ParameterId;
 use lptn_report::{Page, PageOf};
 use lptn_solve::available_threads;
 use lptn_study::{Aim, Demand, SiValue, SizeError};
@@ -30,10 +30,12 @@ use moments::demanded;
 use serde_json::{Map, Value, json};
 
 use crate::answer::Answer;
+use crate::example;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
-use crate::input::{Input, Studies};
+use crate::input::Input;
 use crate::listener::Listener;
+use crate::studies::Studies;
 
 /// Asks for values of parameters, or for parts, that keep the requirements of a `[size.NAME]`.
 #[derive(Clone, Debug, Default)]
@@ -68,8 +70,7 @@ impl SizeQuestion {
     /// cannot be solved.
     pub fn ask(&self, input: Arc<Input>, listener: &dyn Listener) -> Result<SizeAnswer, Failure> {
         let sizes = &input.netlist.studies.sizes;
-        let studies = Studies { example: &example(&input), ..STUDIES };
-        let study = studies.find(&input, (sizes, |study| &study.name), self.name.as_deref())?;
+        let study = STUDIES.find(&input, (sizes, |study| &study.name), self.name.as_deref())?;
         if self.writes {
             for name in changed(study) {
                 write::possible(&input, parameter(&input, study, name)?)?;
@@ -126,40 +127,12 @@ impl Asked {
     }
 }
 
-const STUDIES: Studies<'_> = Studies {
+const STUDIES: Studies = Studies {
     section: "size",
     codes: ["size::no_study", "size::which_study"],
     question: "a sizing needs parameters or parts, and requirements",
-    example: "",
+    example: example::size,
 };
-
-/// A section to paste. It names a parameter and a node that the file has.
-fn example(input: &Input) -> String {
-    let network = &input.netlist.network;
-    let given = |parameter: &&Parameter| {
-        let Given::Constant(value) = parameter.value else { return None };
-        let id = network.parameter(&parameter.name).ok()?;
-        let unit = input.netlist.written_number(id)?.unit;
-        (value > 0.0 && unit.offset == 0.0).then(|| (parameter.name.clone(), value, unit))
-    };
-    let found = network.parameters().iter().find_map(|parameter| given(&parameter));
-    let node = network.nodes().first().map_or("steel", |node| node.name.as_str());
-    let (before, name, [from, to]) = match found {
-        Some((name, value, unit)) => {
-            let end = |factor: f64| format!("{:.3} {}", value * factor / unit.scale, unit.text);
-            (String::new(), name, [end(0.1), end(10.0)])
-        }
-        None => (
-            "[param]\np = \"2 W/K\"    # and use it in an element: G = \"p\"\n\n".to_owned(),
-            "p".to_owned(),
-            ["1 W/K".to_owned(), "10 W/K".to_owned()],
-        ),
-    };
-    format!(
-        "{before}[size.best]\nminimise = \"{name}\"\nvary = {{ {name} = {{ from = \"{from}\", to = \
-         \"{to}\" }} }}\nrequire = [\"{node}.T <= 80 [degC]\"]"
-    )
-}
 
 fn parameter(input: &Input, study: &SizeStudy, name: &str) -> Result<ParameterId, Failure> {
     input.netlist.network.parameter(name).map_err(|_| {

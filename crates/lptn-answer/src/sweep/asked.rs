@@ -18,16 +18,17 @@ use super::row::RowShape;
 use super::shard::Shard;
 use super::tally::Tally;
 use crate::about;
+use crate::example;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
-use crate::input::{self, Input, Studies};
+use crate::input::{self, Input};
+use crate::studies::Studies;
 
-const STUDIES: Studies<'_> = Studies {
+const STUDIES: Studies = Studies {
     section: "sweep",
     codes: ["sweep::no_study", "sweep::which_study"],
     question: "a sweep needs parameters and reports",
-    example: "[sweep.fans]\nmethod = \"grid\"\naxes = { G = { from = \"1 W/K\", to = \"10 W/K\", \
-              points = 10 } }\nreport = { T = \"steel.T\" }",
+    example: example::sweep,
 };
 
 /// The name of a column with a least margin.

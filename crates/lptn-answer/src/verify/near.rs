@@ -16,7 +16,7 @@ use crate::about::{self, Known};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::listener::Listener;
-use crate::operating_point::{OperatingPoint, place};
+use crate::operating_point::{OperatingPoint, place, without_slopes};
 use crate::words::count;
 
 /// A failure at the place that keeps the state from being disturbed.
@@ -80,12 +80,20 @@ impl NearAnswer {
         )
     }
 
+    /// Why no linear network describes the state, if none does.
+    fn fails(&self) -> Option<String> {
+        self.near.tried.and_then(without_slopes)
+    }
+
     fn verdict(&self) -> String {
         let share = |share: f64| format!("{} %", significant(100.0 * share, 2));
         let Some(first) = self.near.disturbances.first() else { return NOTHING.into() };
         if let Some(failing) = self.near.failing() {
             let (share, size) = (share(failing.share()), kelvin(failing.size));
             return format!("not verified: the error is {share} even for a disturbance of {size}");
+        }
+        if let Some(why) = self.fails() {
+            return format!("not verified: heat flows {why}");
         }
         if self.near.is_linear() {
             return "verified: every node is within the allowed error of runs".into();
@@ -100,7 +108,8 @@ impl NearAnswer {
     }
 
     fn passes(&self) -> bool {
-        !self.near.disturbances.is_empty() && self.near.failing().is_none()
+        let shrinks = self.near.failing().is_none() && self.fails().is_none();
+        !self.near.disturbances.is_empty() && shrinks
     }
 
     fn table(&self) -> Table {

@@ -57,10 +57,20 @@ macro_rules! verbs {
         }
 
         impl Verb {
-            /// File of the report, for the verb that writes only that.
-            pub(crate) fn report(&self) -> Option<Option<PathBuf>> {
+            /// File of the report, for the verb that writes only that, with the one of `--report`.
+            pub(crate) fn report(&self, named: Option<&PathBuf>) -> Option<Option<PathBuf>> {
                 match self {
-                    Self::Report(args) => Some(args.output.clone()),
+                    Self::Report(args) => Some(args.output.as_ref().or(named).cloned()),
+                    _ => None,
+                }
+            }
+
+            /// The option for the file of the only thing that the verb writes, if it is given, and
+            /// the one of all verbs for the same.
+            pub(crate) fn names_its_file(&self) -> Option<&'static str> {
+                match self {
+                    Self::Report(args) if args.output.is_some() => Some("--report"),
+                    Self::Plot(args) if args.output.is_some() => Some("--plot"),
                     _ => None,
                 }
             }

@@ -1,11 +1,12 @@
 //! The choice of the columns of a record.
 
-use lptn_units::{Dimension, Type};
+use lptn_units::{Dimension, Type, Unit};
 
 use crate::clock::{Clock, TIME};
 use crate::diagnostic::Diagnostic;
 use crate::dialect::Dialect;
 use crate::head::{Asked, CsvColumn, Head, Header, number};
+use crate::hints::other_brackets;
 use crate::moment::Moment;
 use crate::record::{Extent, RecordName, RecordQuery};
 use crate::spelling;
@@ -126,12 +127,30 @@ fn time(
     {
         return Ok((clock.column(), Some(clock)));
     }
-    let by_name =
-        |header: &Header| ["t", "time"].iter().any(|name| header.name.eq_ignore_ascii_case(name));
     let index = of_unit
         .or_else(|| columns.iter().position(is_time))
-        .or_else(|| columns.iter().position(by_name));
-    Ok((head.column(index.ok_or_else(|| no_time(head))?, Some(TIME), &nobody)?, None))
+        .or_else(|| by_name(columns))
+        .ok_or_else(|| no_time(head))?;
+    Ok((head.column(index, Some(TIME), &nobody)?, None))
+}
+
+/// The names of a column of times, without regard to case.
+const NAMES: [&str; 6] = ["t", "time", "zeit", "temps", "tiempo", "tempo"];
+
+/// The column that is named as times are, or whose name ends in a unit of time. A unit that it has
+/// is a wrong one, so that a column without one comes first.
+fn by_name(columns: &[Header]) -> Option<usize> {
+    let is_named =
+        |header: &Header| NAMES.iter().any(|name| header.name.eq_ignore_ascii_case(name));
+    let is_bare = |header: &Header| header.unit.is_none() && header.name != "T";
+    let ends_in_time = |header: &Header| {
+        let unit = other_brackets(&header.name).and_then(|(_, unit)| Unit::parse(unit).ok());
+        is_bare(header) && unit.is_some_and(|unit| unit.ty == TIME)
+    };
+    let of = |has: &dyn Fn(&Header) -> bool| columns.iter().position(has);
+    of(&|header| is_bare(header) && is_named(header))
+        .or_else(|| of(&ends_in_time))
+        .or_else(|| of(&is_named))
 }
 
 /// The error of a column of numbers and one of dates that may both be the times.

@@ -96,6 +96,8 @@ pub struct Record {
     pub comments: Vec<String>,
     /// Warnings about what was left out or is doubtful.
     pub warnings: Vec<Diagnostic>,
+    /// The names of columns that were left out because they have no unit.
+    pub unitless: Vec<String>,
     /// The byte at which the reader started to look for each row.
     pub(crate) bytes: Vec<usize>,
 }

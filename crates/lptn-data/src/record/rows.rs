@@ -45,9 +45,10 @@ pub(crate) fn read(
     let mut rows = head.reader(&text.text).peekable();
     let choice = choose((&head, text), rows.peek(), (query, extent))?;
     let note = head.note(text, told(&choice, rows.peek(), query));
-    let Choice { time, clock, columns, .. } = choice;
+    let Choice { time, clock, columns, skipped } = choice;
     let mut work = Work::new(text, Cells::new(head, columns), (time, clock));
     work.record.warnings.extend(note);
+    work.record.unitless = skipped;
     work.window = (query.from.unwrap_or(f64::NEG_INFINITY), query.to.unwrap_or(f64::INFINITY));
     while let Some(cells) = rows.next() {
         work.row(cells, rows.peek().is_none());
@@ -74,6 +75,7 @@ impl<'t> Work<'t> {
             columns: Vec::new(),
             comments: comments.map(|comment| comment.trim().to_owned()).collect(),
             warnings: Vec::new(),
+            unitless: Vec::new(),
             bytes: Vec::new(),
         };
         let order = Order::new(&text.text, &time.unit, clock.is_some());

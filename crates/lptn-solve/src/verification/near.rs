@@ -14,21 +14,12 @@ use super::error::NearError;
 use super::{LEAST_TOLERANCE, allowed_error};
 use crate::error::TransientError;
 use crate::exact::Difference;
-use crate::linearised::{Linearised, Tried};
+use crate::linearised::{Linearised, SIZES, Tried, falls};
 use crate::modes::{Shapes, shapes};
 use crate::snapshot::Snapshot;
 
-/// Temperatures of the disturbances in K; the largest less if the network is colder than twice as
-/// much.
-const SIZES: [f64; 3] = [10.0, 1.0, 0.1];
-
 /// The size of a disturbance over the tolerance of its runs.
 const TOLERANCE: f64 = 1e6;
-
-/// The share of a disturbance that is missed has to fall at least this many times from the second
-/// size to the third, which is a tenth of it: near a state where heat flows have slopes it falls
-/// ten times.
-const FALLS: f64 = 5.0;
 
 /// Moments that are compared, in equal ratios over four decades.
 const MOMENTS: usize = 61;
@@ -101,6 +92,7 @@ impl NearState {
         };
         for &shape in ways {
             for size in SIZES {
+                // less if the network is colder than twice the largest
                 let size = size.min(0.5 * coldest * size / SIZES[0]);
                 let beside = Beside { system, state, shapes: &shapes, moments: &moments };
                 disturbances.push(beside.disturb(shape, size)?);
@@ -126,7 +118,7 @@ impl NearState {
         let of_shape = self.disturbances.chunks(SIZES.len());
         let small = of_shape.filter_map(|sizes| Some((sizes.get(1)?, sizes.get(2)?)));
         let mut failing = small.filter(|(medium, small)| {
-            let falls = FALLS * small.share() <= medium.share();
+            let falls = falls(medium.share(), small.share());
             let within = small.difference.largest <= small.allowed;
             !(falls || within)
         });

@@ -142,16 +142,49 @@ impl Source<'_> {
 
     /// With one correction, or with both numbers that a temperature can be.
     fn absolute_operand(&self, id: Id, operation: &'static str, fix: Option<String>) -> UnitError {
-        let kind = match fix {
-            Some(fix) => Kind::AbsoluteOperand { operation, fix, celsius: None },
-            None => {
-                let text = self.text_of(id);
-                let celsius = Some(self.replace(id, &format!("({text} - 0 [degC])")));
-                let fix = self.replace(id, &format!("kelvin({text})"));
-                Kind::AbsoluteOperand { operation, fix, celsius }
-            }
-        };
+        let Some(fix) = fix else { return self.with_zeros(id, operation, (&[id], &[id])) };
+        let kind = Kind::AbsoluteOperand { operation, fix, celsius: None };
         UnitError::new(kind, self.tree.span(id))
+    }
+
+    /// With both numbers that a temperature can be: the operands that count from 0 K in one text,
+    /// and from 0 degC in the other, each in the order of the text.
+    pub(crate) fn with_zeros(
+        &self,
+        id: Id,
+        operation: &'static str,
+        (kelvin, celsius): (&[Id], &[Id]),
+    ) -> UnitError {
+        let with = |ids: &[Id], plain: fn(&str) -> String| {
+            ids.iter().rev().fold(self.text.to_owned(), |text, id| {
+                splice(&text, &self.tree.span(*id), &plain(self.text_of(*id)))
+            })
+        };
+        let fix = with(kelvin, |text| format!("kelvin({text})"));
+        let from_ice = with(celsius, |text| format!("({text} - 0 [degC])"));
+        let (fix, from_ice) = match self.is_scaled_point(id) {
+            true if celsius.len() < kelvin.len() => (format!("absolute({fix})"), from_ice),
+            true => (format!("absolute({fix})"), format!("{from_ice} + 0 [degC]")),
+            false => (fix, from_ice),
+        };
+        let kind = Kind::AbsoluteOperand { operation, fix, celsius: Some(from_ice) };
+        UnitError::new(kind, self.tree.span(id))
+    }
+
+    /// True if the whole text must be a point on the scale, and this operand is one of a sum of
+    /// two, or times or over a number.
+    fn is_scaled_point(&self, id: Id) -> bool {
+        let wanted = self.judge.and_then(|judge| judge.expected);
+        let plain = |other: &Id| matches!(self.tree.node(*other), Node::Number { .. });
+        let scales = match self.tree.node(self.tree.root()) {
+            Node::Binary(Operator::Add, x, y) => [x, y].contains(&&id),
+            Node::Binary(Operator::Multiply, x, y) => {
+                (*x == id && plain(y)) || (*y == id && plain(x))
+            }
+            Node::Binary(Operator::Divide, x, y) => *x == id && plain(y),
+            _ => false,
+        };
+        scales && wanted.is_some_and(|wanted| wanted.absolute)
     }
 
     /// `(a + b) / 2` and `0.5 * (a + b)` as `mean(a, b)`, which also takes temperatures.

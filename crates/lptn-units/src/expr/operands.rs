@@ -57,11 +57,7 @@ fn sum_of_absolutes(source: &Source<'_>, a: Id, b: Id) -> UnitError {
         let kind = Kind::AbsoluteOperand { operation, fix, celsius: None };
         return UnitError::new(kind, source.tree.span(b));
     }
-    let span = source.tree.span(a).start..source.tree.span(b).end;
-    let both = format!("kelvin({}) + kelvin({})", source.text_of(a), source.text_of(b));
-    let fix = super::lexer::splice(source.text, &span, &both);
-    let kind = Kind::AbsoluteOperand { operation, fix, celsius: None };
-    UnitError::new(kind, source.tree.span(b))
+    source.with_zeros(b, operation, (&[a, b], &[b]))
 }
 
 pub(crate) fn product(source: &Source<'_>, operator: Operator, a: Operand, b: Operand) -> Typed {

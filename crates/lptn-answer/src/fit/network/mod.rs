@@ -26,10 +26,12 @@ use lptn_solve::available_threads;
 use lptn_units::Unit;
 
 use crate::answer::Answer;
+use crate::example;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::input::{Input, Studies};
+use crate::input::Input;
 use crate::listener::Listener;
+use crate::studies::Studies;
 use crate::unseparated::{Named, names_and_units};
 
 /// Digits that are written into a netlist: a tenth of a standard error never is beyond them.
@@ -93,12 +95,11 @@ impl Answer for FitNetworkAnswer {
     }
 }
 
-pub(super) const STUDIES: Studies<'_> = Studies {
+pub(super) const STUDIES: Studies = Studies {
     section: "fit",
     codes: ["fit::no_study", "fit::which_study"],
     question: "a fit needs records and parameters",
-    example: "[fit.heating]\ndata = \"record.csv\"\ncolumn = { ring_gear = \"steel.T\" }\n\
-              sigma = \"0.2 K\"\nvary = { R_int = { from = \"1 mK/W\", to = \"1 K/W\" } }",
+    example: example::fit,
 };
 
 impl FitNetworkQuestion {

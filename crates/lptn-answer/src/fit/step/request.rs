@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lptn_netlist::{Diagnostic, Files, Record, RecordName, RecordQuery, read_record};
+use lptn_netlist::{Diagnostic, Files, Record, RecordName, RecordQuery, read_record, unit_option};
 use lptn_units::{Dimension, Quantity, Type, Unit, parse_quantity};
 
 use super::FitStepQuestion;
@@ -178,11 +178,19 @@ fn columns(question: &FitStepQuestion, record: &Record, reference: &Reference) -
     chosen.collect()
 }
 
+/// Help if columns of a record were left out because they have no unit.
+pub(in crate::fit) fn units_missing(record: &Record) -> Option<String> {
+    let option = |name: &String| unit_option(name, Type::ABSOLUTE_TEMPERATURE);
+    let options: Vec<String> = record.unitless.iter().map(option).collect();
+    (!options.is_empty()).then(|| format!("give the column its unit: {}", options.join(" ")))
+}
+
 fn nothing(record: &Record, files: Files) -> Failure {
     let message = "no column of the record is a temperature that changes";
     let problem = Diagnostic::error("fit::no_column", message);
     let problem = problem.at(record.columns.first().map(|column| column.span.clone()), "");
-    let problem = problem.help("the unit of a temperature is `[degC]`, `[K]` or `[degF]`");
+    let usual = "the unit of a temperature is `[degC]`, `[K]` or `[degF]`";
+    let problem = problem.help(units_missing(record).unwrap_or_else(|| usual.to_owned()));
     // the warnings name the columns that do not change
     let diagnostics = record.warnings.iter().cloned().chain([problem]).collect();
     Failure { exit: Exit::Input, files, diagnostics }

@@ -14,6 +14,7 @@ use lptn_units::{Dimension, Problem as _, Type};
 use crate::answer::Answer;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
+use crate::fit::step::units_missing;
 use crate::input;
 use crate::listener::Listener;
 
@@ -127,9 +128,9 @@ impl FitTermsQuestion {
         let problem = Diagnostic::error("fit::no_column", message);
         let problem = problem.at(record.columns.first().map(|column| column.span.clone()), "");
         let help = match all.first() {
-            None => {
+            None => units_missing(record).unwrap_or_else(|| {
                 "the unit of an impedance is `[K/W]`, that of a temperature `[degC]`".to_owned()
-            }
+            }),
             Some(column) => format!("name it: --column \"{}\"", column.name),
         };
         Err(Failure::at(Exit::Input, files.clone(), problem.help(help)))

@@ -8,6 +8,7 @@ pub(crate) use args::PlotArgs;
 use crate::console::Console;
 use crate::drawing::Drawing;
 use lptn_answer::answer::Answer as _;
+use lptn_answer::belief::Belief;
 use lptn_answer::cycle::CycleQuestion;
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
@@ -106,8 +107,7 @@ fn of_netlist(path: &Path, args: &PlotArgs, console: &Console) -> Result<(Source
     let alone = is_alone(args);
     let (set, case) = (args.set.clone(), args.case.clone());
     let source = crate::options::Source { set, case, file: path.into() };
-    let mut input = Input::load(&source)?;
-    input.set_run_times(&args.times)?;
+    let input = Input::load_run(&source, &args.times, &Belief::Named)?;
     if args.periodic {
         return of_cycle(path, (args, input), console);
     }

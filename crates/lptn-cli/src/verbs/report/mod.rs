@@ -21,6 +21,7 @@ use crate::console::Console;
 use crate::files::names::{MANIFEST, RESULT};
 use crate::input::Load as _;
 use lptn_answer::about;
+use lptn_answer::belief::Belief;
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::input::Input;
@@ -91,8 +92,7 @@ fn again(
     };
     let args = RunArgs { no_files: true, output: None, ..args };
     run::live::check(&args)?;
-    let mut input = Input::load(&args.source)?;
-    input.set_run_times(&args.times)?;
+    let input = Input::load_run(&args.source, &args.times, &Belief::Named)?;
     let (outcome, _) = run::answer(&args, input, console)?;
     if matches!(outcome.solution.end(), RunStatus::Interrupted(_)) {
         let problem = Diagnostic::error("run::interrupted", "the run was interrupted");

@@ -27,8 +27,8 @@ use crate::input::Load as _;
 pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
     live::check(args)?;
     let belief = Belief::of(args.uncertainty.posterior.as_deref());
-    let mut input = console.phases.timed("read", || Input::load_from(&args.source, &belief))?;
-    input.set_run_times(&args.times)?;
+    let load = || Input::load_run(&args.source, &args.times, &belief);
+    let input = console.phases.timed("read", load)?;
     let (answer, folder) = answer(args, input, console)?;
     if let Some(folder) = &folder {
         console.phases.timed("write", || write(&answer, folder, console))?;

@@ -1,0 +1,61 @@
+//! The studies of a netlist, found by their name.
+
+use lptn_netlist::Diagnostic;
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::Input;
+
+/// The studies of one kind, and the messages if the wanted one cannot be found.
+pub struct Studies {
+    /// The word of their sections, `size` of `[size.fan]`.
+    pub section: &'static str,
+    /// The codes if there is none, and if several can be meant.
+    pub codes: [&'static str; 2],
+    /// The question of such a study, for the message.
+    pub question: &'static str,
+    /// A section to paste, with names of the file.
+    pub example: fn(&Input) -> String,
+}
+
+impl Studies {
+    /// The study of this name, or the only one.
+    pub fn find<'a, S>(
+        &self,
+        input: &Input,
+        (all, name_of): (&'a [S], fn(&S) -> &str),
+        name: Option<&str>,
+    ) -> Result<&'a S, Failure> {
+        let (file, section) = (&input.text.name, self.section);
+        let known = || all.iter().map(name_of);
+        let list = || known().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        let [none, several] = self.codes;
+        let found = match name {
+            Some(name) => all.iter().find(|study| name_of(study) == name),
+            None => all.first().filter(|_| all.len() == 1),
+        };
+        if let Some(found) = found {
+            return Ok(found);
+        }
+        let problem = match (name, all.is_empty()) {
+            (None, true) => Diagnostic::error(
+                none,
+                format!("{file} has no [{section}.NAME]: {}", self.question),
+            )
+            .help(format!("add for example:\n\n{}", (self.example)(input))),
+            (None, false) => {
+                Diagnostic::error(several, format!("{file} has several [{section}.NAME]"))
+                    .help(format!("name one of {}", list()))
+            }
+            (Some(name), empty) => {
+                let problem = Diagnostic::error(none, format!("{file} has no [{section}.{name}]"));
+                if empty {
+                    problem
+                } else {
+                    problem.did_you_mean(name, known(), || format!("name one of {}", list()))
+                }
+            }
+        };
+        Err(Failure::new(Exit::Input, problem))
+    }
+}
