@@ -20,10 +20,10 @@ fn another_speed_gives_the_power_law_of_that_speed() {
 #[test]
 fn with_equals_writing_the_value_into_the_file() {
     let text = std::fs::read_to_string(networks().join("gearbox.toml")).unwrap();
-    let written = lptn::parse("written", &text.replace("\"220.6 W\"", "\"150 W\"")).unwrap();
+    let written = lptn::parse("written", &text.replace("220.6 [W] / 65.5 [K]", "3 W/K")).unwrap();
     let (netlist, _) = shipped("gearbox.toml");
     let mut parameters = netlist.network.overrides();
-    parameters.set_text("P_7000", "150 W").unwrap();
+    parameters.set_text("G_out", "3 W/K").unwrap();
     let changed = netlist.network.with(&parameters).unwrap();
     for id in changed.conductor_ids() {
         let conductance = |network: &Network| network.conductance(id).unwrap();
@@ -36,11 +36,11 @@ fn with_equals_writing_the_value_into_the_file() {
 fn a_value_that_breaks_an_element_is_refused_by_name() {
     let (netlist, _) = shipped("gearbox.toml");
     let mut parameters = netlist.network.overrides();
-    parameters.set_text("P_7000", "-1 W").unwrap();
+    parameters.set_text("G_out", "-1 W/K").unwrap();
     let errors = netlist.network.with(&parameters).unwrap_err();
     let codes: Vec<&str> = errors.0.iter().map(|e| e.code()).collect();
-    assert_eq!(codes, ["network::not_positive"; 3]);
-    assert!(errors.to_string().contains("`R` of path `internal`"), "{errors}");
+    assert_eq!(codes, ["network::not_positive"; 2]);
+    assert!(errors.to_string().contains("`G` of path `mill_bed`"), "{errors}");
 }
 
 #[test]

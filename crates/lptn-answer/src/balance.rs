@@ -168,7 +168,7 @@ fn place(network: &Network, term: &Term, end: End) -> String {
     }
 }
 
-/// `{ of, terms, power, heat, stored, .. }` with a term
+/// `{ of, terms, power, heat, stored, … }` with a term
 /// `{ name, other, power, power_share, heat, heat_share }` each, in SI, largest first.
 pub fn json(network: &Network, balance: &Balance) -> Value {
     let scalar = SiValue::new;

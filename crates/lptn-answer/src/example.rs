@@ -1,7 +1,7 @@
 //! Studies to paste into a file that has none, with names and numbers of the file.
 //!
 //! A study has to be one that makes sense there. The parameter is one that costs something and
-//! changes the temperature, the requirement is a limit of the file, and what costs less is sought:
+//! changes the temperature, the requirement is a limit of the file, and the answer is the value that costs least:
 //! a smaller conductance, a larger resistance, or the largest power that keeps the limit.
 
 mod subject;

@@ -28,7 +28,7 @@ pub fn json(files: &Files, diagnostic: &Diagnostic) -> Value {
     })
 }
 
-/// The text that a help proposes by `did you mean ..?`, and the place whose text it replaces.
+/// The text that a help proposes by `did you mean …?`, and the place whose text it replaces.
 /// If the text has its quotes or brackets, that is the whole string or heading.
 fn fix(files: &Files, diagnostic: &Diagnostic) -> Option<Value> {
     let meant = diagnostic.help.as_deref()?.strip_prefix("did you mean ")?.strip_suffix('?')?;

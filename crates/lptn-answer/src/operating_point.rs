@@ -97,7 +97,7 @@ impl OperatingPoint {
     }
 }
 
-/// "are not linear there, ..", if no linear network describes a state. `reduce` and `verify` judge
+/// "are not linear there, …", if no linear network describes a state. `reduce` and `verify` judge
 /// a state by this.
 pub fn without_slopes(tried: Tried) -> Option<String> {
     let missed = match tried.small {

@@ -27,7 +27,7 @@ impl Phases {
         }
     }
 
-    /// The times so far, in s.
+    /// The times up to now, in s.
     pub(crate) fn seconds(&self) -> Vec<(&'static str, f64)> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

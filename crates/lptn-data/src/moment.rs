@@ -104,7 +104,7 @@ impl Moment {
     }
 }
 
-/// A whole number of at most so many digits.
+/// A whole number of at most this number of digits.
 fn digits(text: &str, most: usize) -> Option<u32> {
     let sound = (1..=most).contains(&text.len()) && text.bytes().all(|b| b.is_ascii_digit());
     if sound { text.parse().ok() } else { None }

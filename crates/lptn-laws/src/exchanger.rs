@@ -66,7 +66,7 @@ pub fn effectiveness_parallel<S: Scalar>(ntu: S, ratio: S) -> S {
 /// ```
 pub fn effectiveness_crossflow<S: Scalar>(ntu: S, ratio: S) -> S {
     let (hot, cold, one) = (ntu, ratio * ntu, S::from_f64(1.0));
-    // the rest of 1 after the terms so far of each exponential series; the second over C_r N
+    // the rest of 1 after the terms up to now of each exponential series; the second over C_r N
     let mut rest = [hot * mean_of_decay(hot), mean_of_decay(cold)];
     let mut power = [(-hot).exp() * hot, (-cold).exp()];
     let mut sum = rest[0] * rest[1];

@@ -68,7 +68,7 @@ pub struct Netlist {
     pub(crate) case: Option<String>,
     /// The result of a fit.
     pub(crate) believed: Option<Believed>,
-    /// Everything that was set so far.
+    /// Everything that was set up to now.
     pub(crate) assigned: Parameters,
     pub(crate) inputs: Vec<FileId>,
     /// The structure that templates gave it.

@@ -12,7 +12,7 @@ use crate::setting::{Setting, TIME};
 use crate::value::whole;
 use crate::work::Elaboration;
 
-/// `climb = { from = .., to = .. }` in `window` of `[run]`.
+/// `climb = { from = …, to = … }` in `window` of `[run]`.
 pub(crate) const WINDOW: SectionDeclaration = SectionDeclaration {
     name: "window",
     keys: &[

@@ -24,7 +24,7 @@ const DECADES: f64 = 1e9;
 const WEAK: f64 = 1e-6;
 const DECADES_OF_WEAK: f64 = 1e6;
 
-/// True if two conductances are so far apart that one of them is probably wrong.
+/// True if the ratio of two conductances is so large that one of them is probably wrong.
 fn far_apart(least: f64, most: f64) -> bool {
     most >= DECADES * least || (least < WEAK && most >= DECADES_OF_WEAK * least)
 }

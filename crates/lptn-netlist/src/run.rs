@@ -78,7 +78,7 @@ pub(crate) const RUN: SectionDeclaration = SectionDeclaration {
     ..SectionDeclaration::NEW
 };
 
-/// `output = { .. }` of `[run]`.
+/// `output = { … }` of `[run]`.
 const OUTPUT: SectionDeclaration = SectionDeclaration {
     name: "output",
     keys: &[

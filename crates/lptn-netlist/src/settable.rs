@@ -1,4 +1,4 @@
-//! Help for `--set outside.T=..`: only parameters can be set, so a field needs one.
+//! Help for `--set outside.T=…`: only parameters can be set, so a field needs one.
 
 use lptn_data::Span;
 use lptn_network::{Field, Item, Law};

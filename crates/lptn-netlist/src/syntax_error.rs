@@ -175,7 +175,7 @@ fn one(message: &str, place: &Place<'_>, top: &RawTable) -> Diagnostic {
     }
 }
 
-/// `steel part = ..`: a name with a blank in it.
+/// `steel part = …`: a name with a blank in it.
 fn name_in_two(place: &Place<'_>) -> Option<Diagnostic> {
     let (start, line) = place.line();
     let (name, _) = line.split_once('=')?;

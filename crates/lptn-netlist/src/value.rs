@@ -100,7 +100,7 @@ impl Elaboration<'_> {
     }
 }
 
-/// `if(t == 5 [s], ..)`.
+/// `if(t == 5 [s], …)`.
 fn moment(place: Place<'_>, at: Span) -> Diagnostic {
     let message =
         format!("{} compares the time by equality, which lasts for no time", place.words());

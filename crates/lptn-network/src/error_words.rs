@@ -242,7 +242,7 @@ pub(crate) fn area(sides: [f64; 2]) -> String {
     format!("{} m = {} m^2", by(&sides.map(rounded)), rounded(sides[0] * sides[1]))
 }
 
-/// "`joint` joins `die.z0` to `plate.z1`, but .."
+/// "`joint` joins `die.z0` to `plate.z1`, but …"
 pub(crate) fn joins_but(say: &Say<'_>, [from, to]: &[String; 2], but: &str) -> String {
     format!("`{}` joins `{from}` to `{to}`, {but}", say.name)
 }

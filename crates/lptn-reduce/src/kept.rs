@@ -137,7 +137,7 @@ const POWERS: [Option<i32>; 4] = [None, Some(1), Some(2), Some(3)];
 /// Shares and conductances below this part of the whole are rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Nodes chosen so far, each with its Norton equivalent.
+/// Nodes chosen up to now, each with its Norton equivalent.
 struct Choice<'a> {
     system: &'a ThermalSystem,
     columns: Vec<NortonEquivalent>,

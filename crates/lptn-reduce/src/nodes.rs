@@ -50,7 +50,7 @@ impl Nodes {
         Some(Self { definition: None, ladder, foster, worst })
     }
 
-    /// The smallest number of nodes, at most `most`, whose error over every load is no larger than
+    /// The smallest number of nodes, at most `most`, whose error over every load is at most
     /// `limit` in K for each W of the largest power; one node is the best of the pairs. Also
     /// returns the smaller numbers of nodes that were not enough, the smallest first.
     pub fn enough(

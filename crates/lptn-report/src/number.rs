@@ -59,7 +59,7 @@ pub fn significant(value: f64, digits: usize) -> String {
     if (1e-3..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
-/// The power of 1000 that brings `largest` to 1 .. 1000, and its SI prefix.
+/// The power of 1000 that brings `largest` to 1 … 1000, and its SI prefix.
 pub fn prefix(largest: f64) -> (f64, &'static str) {
     const PREFIXES: [(f64, &str); 7] =
         [(1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "u")];

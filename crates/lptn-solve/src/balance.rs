@@ -172,7 +172,7 @@ impl Books {
         system: &ThermalSystem,
         work: &mut Workspace,
         integrals: &[f64],
-        (stored, tolerance): (Vec<f64>, f64),
+        (stored, tolerance): (Vec<f64>, (f64, f64)),
     ) -> (Ledger, Option<Balance>) {
         let (of_ledger, heats) = integrals.split_at(ledger::integrals(system));
         let ledger = Ledger::new(system, of_ledger, stored, tolerance).allowing(self.error);

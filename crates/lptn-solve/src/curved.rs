@@ -42,7 +42,7 @@ impl Curved {
     /// `None` if no input is curved.
     ///
     /// A pulse shorter than a part of the first steps can still be missed: write it with
-    /// `if(t < ..)`, which is met exactly.
+    /// `if(t < …)`, which is met exactly.
     ///
     /// The share falls with the number of steps that the network remembers: curved inputs excite it
     /// in every one of them, and the errors of the steps add up over its memory

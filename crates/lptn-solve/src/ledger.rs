@@ -24,7 +24,8 @@ pub struct Ledger {
     /// stored by each node.
     pub turned_over: f64,
     /// Largest allowed residual over the total heat: the share given for the run, else `1e-8 + 10
-    /// tolerance C / turned_over` with the sum C of all capacities in J/K.
+    /// tolerance C / turned_over` with the sum C of all capacities in J/K, at the start or at the
+    /// end, whichever is larger.
     pub bound: f64,
 }
 
@@ -34,11 +35,12 @@ pub struct Ledger {
 const PIPED: f64 = 1e-4;
 
 impl Ledger {
+    /// From a tolerance in K and the growth in J/K of capacities that follow states.
     pub(crate) fn new(
         system: &ThermalSystem,
         integrals: &[f64],
         stored: Vec<f64>,
-        tolerance: f64,
+        (tolerance, grown): (f64, f64),
     ) -> Self {
         let network = system.network();
         let (sources, rest) = integrals.split_at(network.sources().len());
@@ -48,6 +50,7 @@ impl Ledger {
         let (masses, turned) = rest.split_at(network.state_capacities().len());
         let turned_over = turned.iter().sum::<f64>() + stored.iter().map(|q| q.abs()).sum::<f64>();
         let capacity: f64 = network.thermal_nodes().map(|id| network.capacity(id)).sum();
+        let capacity = capacity + grown;
         let bound = 1e-8 + 10.0 * tolerance * capacity / turned_over;
         let [sources, boundaries, masses, mut streams] =
             [sources, boundaries, masses, streams].map(<[f64]>::to_vec);

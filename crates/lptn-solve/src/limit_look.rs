@@ -114,7 +114,7 @@ impl LimitSeen {
     }
 }
 
-/// True if a margin with these values may become the least one so far, or the first below zero. No
+/// True if a margin with these values may become the least one up to now, or the first below zero. No
 /// curve that its points resolve leaves their range by as much again.
 fn counts(seen: &LimitSeen, values: &[f64]) -> bool {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -151,7 +151,7 @@ fn of_limit(
     Ok(())
 }
 
-/// The time of the deepest valley that the points promise, if it may be the least margin so far or
+/// The time of the deepest valley that the points promise, if it may be the least margin up to now or
 /// the first below zero.
 fn valley(points: &[Point], seen: &LimitSeen, rounding: f64) -> Option<f64> {
     let ends = (points[0].0, points[points.len() - 1].0);

@@ -99,7 +99,7 @@ fn ledger(wrong: Wrong) -> Ledger {
         run.step().unwrap();
     }
     let rise = run.state().iter().zip(system.capacity()).map(|(t, c)| c * (t - AMBIENT)).collect();
-    Ledger::new(&system, run.quadratures().unwrap(), rise, options.tolerance)
+    Ledger::new(&system, run.quadratures().unwrap(), rise, (options.tolerance, 0.0))
 }
 
 #[test]
@@ -247,7 +247,7 @@ fn bent_ledger(wrong: Bent) -> Ledger {
         Bent::Latent => stored[0] -= 10_000.0,
         _ => {}
     }
-    Ledger::new(&system, run.quadratures().unwrap(), stored, options.tolerance)
+    Ledger::new(&system, run.quadratures().unwrap(), stored, (options.tolerance, 0.0))
 }
 
 #[test]

@@ -113,7 +113,7 @@ impl Quadrature {
 
 /// Difference of the two rules for the worst curve, over the allowed one; 0 if they agree. A curve
 /// that is not a number somewhere stays so after a halving. `sizes` are the largest integrals of
-/// absolute values in the step so far, next to which an interval may be negligible.
+/// absolute values in the step up to now, next to which an interval may be negligible.
 fn wanting(kinds: &[usize], integrals: &[[f64; 3]], sizes: &mut [f64]) -> f64 {
     let mut largest = vec![0.0_f64; kinds.iter().max().map_or(0, |kind| kind + 1)];
     for ((&kind, [_, _, size]), known) in kinds.iter().zip(integrals).zip(sizes.iter_mut()) {

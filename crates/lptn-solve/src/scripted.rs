@@ -124,7 +124,7 @@ pub(crate) fn workspace(system: &ThermalSystem) -> Workspace {
     work
 }
 
-/// Bodies `n0`, `n1`, .. of these capacities in J/K (0: massless) at 300 K, each with 2 W/K to air at
+/// Bodies `n0`, `n1`, … of these capacities in J/K (0: massless) at 300 K, each with 2 W/K to air at
 /// 300 K and its heat in W; the first two are joined by a conductance if one is given.
 pub(crate) fn bodies(bodies: &[(f64, &str)], joined: Option<&str>) -> Network {
     let start = Temperature(300.0);

@@ -30,7 +30,8 @@ pub(crate) fn solve(
         RunStatus::Failed(time) => time,
         _ => recorder.span().1,
     };
-    let closed = books.close(system, recorder.at_state((last, &[])), &integrals, (stored, 0.0));
+    let closed =
+        books.close(system, recorder.at_state((last, &[])), &integrals, (stored, (0.0, 0.0)));
     let solution = recorder.into_solution(closed, (Statistics::default(), Vec::new()), end);
     match outcome {
         None => Ok(solution),

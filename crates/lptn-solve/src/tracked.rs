@@ -16,7 +16,7 @@ use crate::zeros::share_above;
 /// there.
 const SAME: f64 = 1e-9;
 
-/// A window with its results so far.
+/// A window with its results up to now.
 #[derive(Clone, Debug)]
 pub(crate) struct Tracked {
     pub(crate) window: Window,
@@ -153,7 +153,7 @@ fn kinds(of: &Selection, network: &Network) -> Vec<usize> {
     of.quantities().iter().map(kind).collect()
 }
 
-/// Takes the extremes of all columns over an interval into those found so far.
+/// Takes the extremes of all columns over an interval into those found up to now.
 fn look(interval: &Interval, told: bool, min: &mut [(f64, f64)], max: &mut [(f64, f64)]) {
     let times: [f64; POINTS] = std::array::from_fn(|point| interval.time(point));
     for (column, (min, max)) in min.iter_mut().zip(max).enumerate() {

@@ -44,7 +44,7 @@ impl Transient {
     /// Runs to the stop.
     ///
     /// # Errors
-    /// [`TransientError`]; a run that breaks off hands over its results so far, and so does one
+    /// [`TransientError`]; a run that breaks off hands over its results up to now, and so does one
     /// whose energy balance does not close: no solution that reached its stop has an open one.
     pub fn solve(&self, system: &ThermalSystem) -> Result<Solution, TransientError> {
         self.solve_observed(system, &mut |_| Proceed::Continue)

@@ -90,7 +90,7 @@ impl Watched {
         }
     }
 
-    /// A time inside the points at which the curve promises to be higher than the peak so far: the
+    /// A time inside the points at which the curve promises to be higher than the peak up to now: the
     /// top of a parabola near the highest of them. No curve that its points resolve leaves their
     /// range by as much again.
     pub(crate) fn promising(&self, points: &[(f64, f64)]) -> Option<f64> {
@@ -112,7 +112,7 @@ impl Watched {
         (height > self.peak.0 && !known).then_some(time)
     }
 
-    /// True if its peak so far is at least this temperature in K.
+    /// True if its peak up to now is at least this temperature in K.
     pub(crate) fn is_above(&self, temperature: f64) -> bool {
         temperature <= self.peak.0
     }
@@ -129,7 +129,7 @@ impl Watched {
     }
 
     /// The highest temperature of a step and its time, if the polynomial through its points is
-    /// higher than the peak so far between them.
+    /// higher than the peak up to now between them.
     pub(crate) fn top(
         &self,
         step: (f64, f64),

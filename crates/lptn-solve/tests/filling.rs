@@ -60,6 +60,24 @@ fn a_tank_mixes_and_its_energy_balance_has_the_heat_of_the_inflow() {
     near(brought, 60.0 * CP * 60.0, 20.0, "brought by the stream and the mass");
 }
 
+/// A tank that is filled to up to a hundred times its content. The bound of the balance counted the
+/// capacity at the start only, and refused runs that were right.
+#[test]
+fn a_tank_that_grows_a_hundredfold_keeps_its_energy_balance() {
+    let text = TANK
+        .replace(", max = \"110 kg\"", "")
+        .replace("if(m < 110 [kg], inflow, 0 [kg/s])", "inflow");
+    for inflow in [0.25, 0.5, 2.0, 8.0] {
+        let network = network(&text.replace("\"0.1 kg/s\"", &format!("\"{inflow} kg/s\"")));
+        let solution = run(&network, &[0.0, 60.0, 600.0], IntegratorChoice::default());
+        let water = network.node("water").unwrap();
+        for (time, found) in solution.times().iter().zip(solution.temperature(water).unwrap()) {
+            near(found - ZERO, 80.0 - 60.0 * 50.0 / (50.0 + inflow * time), 1e-4, "mixing");
+        }
+        solution.ledger().check().unwrap();
+    }
+}
+
 /// Two tanks: the first one is filled, heated and drained into the second one, which cools.
 struct Tanks {
     /// Mass flows in kg/s, shares by which they vary and angular frequencies in 1/s.

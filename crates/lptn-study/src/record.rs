@@ -22,7 +22,7 @@ impl SiValue {
         Self { value, unit: unit.to_owned() }
     }
 
-    /// The object `{ "value": .., "unit": .. }`; a value that is not a number is `null`.
+    /// The object `{ "value": …, "unit": … }`; a value that is not a number is `null`.
     pub fn json(&self) -> Value {
         serde_json::json!({ "value": self.value, "unit": self.unit })
     }

@@ -27,7 +27,7 @@ const FACTORS: [[f64; 2]; 4] = [[0.1, 10.0], [0.5, 2.0], [0.8, 1.25], [0.95, 1.0
 /// The range of a temperature to both sides in K.
 const AROUND: f64 = 20.0;
 
-/// Whether less or more of a parameter costs less.
+/// The direction in which a parameter costs less.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Way {
     /// The least value is best.
@@ -36,10 +36,10 @@ pub(super) enum Way {
     Most,
 }
 
-/// What a study of a file is about.
+/// The subject of a study of a file.
 #[derive(Debug)]
 pub(super) struct Subject {
-    /// What the file needs before the study.
+    /// Lines that the file needs before the study.
     pub(super) before: String,
     /// The parameter.
     pub(super) name: String,
@@ -239,7 +239,7 @@ impl Known {
         };
         let (node, temperature, limits) =
             if over_run { peak(&system, input)? } else { of_steady()? };
-        // what changes the state at the start need not change the run
+        // a change of the state at the start need not change the run
         let ranking =
             ranking.filter(|ranking| !over_run || ranking.parameters.iter().any(has_effect));
         Some(Self { node, temperature, ranking, limits, over_run })

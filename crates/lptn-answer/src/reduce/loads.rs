@@ -194,7 +194,7 @@ impl ReduceAnswer {
             .into()
     }
 
-    /// "0 to 220.6 W errs by at most 0.894 K, 1.3 % of R_eq P: reads too cold after .."
+    /// "0 to 220.6 W errs by at most 0.894 K, 1.3 % of R_eq P: reads too cold after …"
     fn any_load(&self, nodes: &Nodes) -> String {
         let loads = &self.loads;
         let rise = self.reduction.norton.resistance * loads.power;

@@ -53,9 +53,7 @@ impl Kept {
             let text = format!("not proven: {names}: the margin is smaller than its proven error");
             let help = match &proof.instead {
                 Some((_, value)) => format!("{value} keeps every requirement with proof"),
-                None => {
-                    "require a little more than is needed: then what is needed is proven".into()
-                }
+                None => "require a little more than is needed: then the need is proven".into(),
             };
             Diagnostic::warning("size::undecided", text).help(help)
         });

@@ -2,7 +2,7 @@
 
 use super::row::Row;
 
-/// The front of the rows so far, first report rising and second falling; of equal rows the first.
+/// The front of the rows up to now, first report rising and second falling; of equal rows the first.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Front {
     /// The places of the two reports among the numbers of a row; `None` without a question.

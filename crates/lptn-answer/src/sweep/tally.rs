@@ -31,13 +31,13 @@ impl Count {
     }
 }
 
-/// Summary of the rows so far.
+/// Summary of the rows up to now.
 #[derive(Clone, Debug)]
 pub struct Tally {
     axes: usize,
     /// One row out of this many is kept.
     stride: u64,
-    /// Rows so far.
+    /// Rows up to now.
     pub rows: u64,
     pub(super) failed: BTreeMap<String, Count>,
     pub(super) outside: Count,

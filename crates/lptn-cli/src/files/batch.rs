@@ -59,13 +59,13 @@ impl<'a> Batch<'a> {
         self.write(name, |mut out| lptn_report::write(page, format, Look::PLAIN, &mut out))
     }
 
-    /// Writes the manifest of the files that are written so far.
+    /// Writes the manifest of the files that are written up to now.
     pub(crate) fn manifest(&mut self, inputs: &[FileHash], wall_time: f64) -> Result<(), Failure> {
         let text = manifest(inputs, &self.written, wall_time);
         self.write(MANIFEST, |out| out.write_all(format!("{text:#}\n").as_bytes()))
     }
 
-    /// The files that are written so far.
+    /// The files that are written up to now.
     pub(crate) fn written(&self) -> &[FileHash] {
         &self.written
     }

@@ -32,7 +32,7 @@ impl Counted {
     }
 }
 
-/// The columns so far, with the problems of their cells.
+/// The columns up to now, with the problems of their cells.
 pub(crate) struct Cells {
     pub(crate) head: Head,
     pub(crate) columns: Vec<RecordColumn>,

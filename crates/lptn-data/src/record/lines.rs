@@ -14,13 +14,13 @@ use crate::text::CsvText;
 pub struct RecordLines {
     name: String,
     query: RecordQuery,
-    /// Number of lines so far.
+    /// Number of lines up to now.
     count: usize,
     /// The header, the last row, and one after it that breaks off, each with its line number.
     kept: Vec<(usize, String)>,
     /// True if the last of them breaks off.
     broken: bool,
-    /// Number of rows so far.
+    /// Number of rows up to now.
     rows: usize,
 }
 
@@ -51,7 +51,7 @@ impl RecordLines {
         Self { name, query, count: 0, kept, broken: false, rows: 0 }
     }
 
-    /// Number of rows so far.
+    /// Number of rows up to now.
     pub fn rows(&self) -> usize {
         self.rows
     }

@@ -15,7 +15,7 @@ const HOLE: f64 = 5.0;
 const SET_BACK: &str = "was the clock set back, as at the end of daylight-saving time? log in UTC, \
     or write the offset behind each time, `02:00:00+02:00`; else sort the rows, or split the file";
 
-/// The order of the rows so far.
+/// The order of the rows up to now.
 pub(crate) struct Order<'t> {
     text: &'t str,
     /// The unit of the times in the file.

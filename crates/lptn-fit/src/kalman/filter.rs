@@ -2,7 +2,7 @@
 
 use super::{Fade, Gaussian, Reading, Step, weighed};
 
-/// The state after the readings so far.
+/// The state after the readings up to now.
 #[derive(Clone, Debug)]
 pub struct Filter {
     state: Gaussian,
@@ -32,7 +32,7 @@ impl Filter {
         &self.state
     }
 
-    /// The logarithm of the probability density of all readings so far, by their innovations
+    /// The logarithm of the probability density of all readings up to now, by their innovations
     /// (F. C. Schweppe, IEEE Trans. Inf. Theory 11 (1965) 61).
     pub fn log_likelihood(&self) -> f64 {
         self.log_likelihood

@@ -62,7 +62,7 @@ impl Stop {
 pub enum Termination {
     /// At a minimum.
     Converged(Test),
-    /// Elsewhere: the parameters are those of the lowest sum of squares so far, and not a result.
+    /// Elsewhere: the parameters are those of the lowest sum of squares up to now, and not a result.
     NotConverged(Stop),
 }
 

@@ -89,7 +89,7 @@ pub fn fit_network(task: &NetworkFitTask) -> Result<NetworkFit, NetworkFitError>
 /// The same; `observer` is called after every step of every run and may interrupt the fit.
 ///
 /// # Errors
-/// The same as for [`fit_network`]; [`NetworkFitError::Interrupted`] with the best values so far.
+/// The same as for [`fit_network`]; [`NetworkFitError::Interrupted`] with the best values up to now.
 pub fn fit_network_observed(
     task: &NetworkFitTask,
     observer: &FitObserver<'_>,

@@ -58,7 +58,7 @@ pub(crate) struct Model<'a> {
     pub(crate) evaluations: usize,
     /// Progress of the fit, without the evaluations of this model.
     pub(crate) stage: FitStage,
-    /// The least sum of squares so far, and its values.
+    /// The least sum of squares up to now, and its values.
     pub(crate) best: Option<(f64, Vec<f64>)>,
     /// True if the observer has interrupted the fit.
     pub(crate) interrupted: bool,

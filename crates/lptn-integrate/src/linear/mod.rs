@@ -102,7 +102,7 @@ pub trait Factorization {
     /// fly).
     fn fill(&self) -> usize;
 
-    /// Iterations of all solves so far; 0 for exact factors.
+    /// Iterations of all solves up to now; 0 for exact factors.
     fn iterations(&self) -> u64 {
         0
     }

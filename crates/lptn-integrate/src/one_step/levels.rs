@@ -29,7 +29,7 @@ struct Kept {
     used: u64,
 }
 
-/// The factors of `M - g h J` for the step sizes met so far.
+/// The factors of `M - g h J` for the step sizes met up to now.
 pub(super) struct Levels {
     /// Analysed, never factorised.
     analysed: Box<dyn Factorization>,

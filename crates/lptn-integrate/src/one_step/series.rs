@@ -86,7 +86,7 @@ pub(super) fn change(terms: usize, share: f64) -> Weights {
 /// the flow in the middle of that time is exactly the change of `M y` over the time, so that the
 /// energy balance closes.
 ///
-/// It follows from `(g z) u_(n+1) v = ..`: dividing the series by `z` takes a term into the mean of
+/// It follows from `(g z) u_(n+1) v = …`: dividing the series by `z` takes a term into the mean of
 /// itself and the one before. Valid from three terms on, whose first two weights are exact.
 pub(super) fn mean(terms: usize, share: f64) -> Weights {
     let change = change(terms, share);

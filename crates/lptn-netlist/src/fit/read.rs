@@ -99,7 +99,7 @@ impl<'a> Elaboration<'a> {
         None
     }
 
-    /// `vary = { R_int = { from = .., to = .. } }`, or a list of names.
+    /// `vary = { R_int = { from = …, to = … } }`, or a list of names.
     fn varied(&mut self, fields: &Fields<'a>) -> Option<Vec<VariedName>> {
         let wanted = "a table of parameters or a list of their names";
         let names = self.listed(fields, "vary", Names::Either(wanted))?;

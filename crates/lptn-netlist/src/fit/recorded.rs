@@ -64,7 +64,7 @@ impl FitStudy {
 }
 
 impl<'a> Elaboration<'a> {
-    /// `signal = { speed = "omega", hall = { .. } }`; `None` after an error, which is reported.
+    /// `signal = { speed = "omega", hall = { … } }`; `None` after an error, which is reported.
     pub(super) fn fit_signals(&mut self, fields: &Fields<'a>) -> Option<Vec<FitSignal>> {
         let Some(raw) = fields.get("signal") else { return Some(Vec::new()) };
         let RawKind::Table(table) = &raw.kind else {

@@ -95,7 +95,7 @@ const SIZE: SectionDeclaration = SectionDeclaration {
     ..SectionDeclaration::NEW
 };
 
-/// `p = { from = .., to = .. }` in `vary` of a size or fit.
+/// `p = { from = …, to = … }` in `vary` of a size or fit.
 pub(crate) const VARY: SectionDeclaration = SectionDeclaration {
     name: "vary",
     keys: &[

@@ -32,7 +32,7 @@ pub(crate) enum AxisValues {
 }
 
 impl<'a> Elaboration<'a> {
-    /// `axes = { p = { from = .., to = .., points = 10 }, q = ["1 W", "2 W"] }`.
+    /// `axes = { p = { from = …, to = …, points = 10 }, q = ["1 W", "2 W"] }`.
     pub(super) fn sweep_axes(
         &mut self,
         fields: &Fields<'a>,

@@ -89,7 +89,7 @@ pub(crate) const SWEEP: SectionDeclaration = SectionDeclaration {
     ..SectionDeclaration::NEW
 };
 
-/// `p = { from = .., to = .. }` in `axes`.
+/// `p = { from = …, to = … }` in `axes`.
 pub(super) const AXIS: SectionDeclaration = SectionDeclaration {
     name: "axis",
     keys: &[

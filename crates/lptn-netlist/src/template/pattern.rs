@@ -64,7 +64,7 @@ impl Patterns<'_> {
             return vec![entry];
         };
         let Ok(expression) = Expression::parse(text) else { return vec![entry] };
-        // those inside `max(..)` and the like are one value
+        // those inside `max(…)` and the like are one value
         let members = |name: &str| self.structure.members(&value.span, name);
         let expression = expression.with_members(&members);
         let names = expression.names().into_iter().filter(|(name, _)| name.contains(STAR));

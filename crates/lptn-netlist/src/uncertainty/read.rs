@@ -10,7 +10,7 @@ use crate::listed::Listed;
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 use crate::work::Elaboration;
 
-/// `posterior = { .. }`.
+/// `posterior = { … }`.
 pub(super) const POSTERIOR: SectionDeclaration = SectionDeclaration {
     name: "posterior",
     keys: &[

@@ -299,7 +299,7 @@ impl NetworkBuilder {
         self.register(name, Item::Conductor(id));
     }
 
-    /// Number of nodes and of conductors so far.
+    /// Number of nodes and of conductors up to now.
     pub fn sizes(&self) -> (usize, usize) {
         (self.parts.nodes.len(), self.parts.conductors.len())
     }

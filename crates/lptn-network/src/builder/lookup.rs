@@ -1,4 +1,4 @@
-//! Contents of a builder so far, by name and by number.
+//! Contents of a builder up to now, by name and by number.
 
 use std::borrow::Cow;
 
@@ -7,7 +7,7 @@ use crate::id::{End, Item, NodeId, StateId};
 use crate::value::Value;
 
 impl NetworkBuilder {
-    /// The item of this name among the nodes, boundaries and elements added so far; the first, if
+    /// The item of this name among the nodes, boundaries and elements added up to now; the first, if
     /// several have it.
     pub fn item(&self, name: &str) -> Option<Item> {
         self.parts.item(name)
@@ -50,7 +50,7 @@ impl NetworkBuilder {
         self.parts.whole(item).is_some()
     }
 
-    /// Ids of the nodes added so far.
+    /// Ids of the nodes added up to now.
     pub fn node_ids(&self) -> impl Iterator<Item = NodeId> + use<> {
         (0..self.parts.nodes.len()).map(NodeId::from_len)
     }
@@ -70,22 +70,22 @@ impl NetworkBuilder {
         }
     }
 
-    /// Number of nodes added so far.
+    /// Number of nodes added up to now.
     pub fn node_count(&self) -> usize {
         self.parts.nodes.len()
     }
 
-    /// Number of boundaries added so far.
+    /// Number of boundaries added up to now.
     pub fn boundary_count(&self) -> usize {
         self.parts.boundaries.len()
     }
 
-    /// Number of conductors added so far.
+    /// Number of conductors added up to now.
     pub fn conductor_count(&self) -> usize {
         self.parts.conductors.len()
     }
 
-    /// Number of sources added so far.
+    /// Number of sources added up to now.
     pub fn source_count(&self) -> usize {
         self.parts.sources.len()
     }

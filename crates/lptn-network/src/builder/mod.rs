@@ -259,7 +259,7 @@ impl NetworkBuilder {
         NetworkScope::new(&self.parts, context)
     }
 
-    /// Compiles an expression for this place over everything added so far.
+    /// Compiles an expression for this place over everything added up to now.
     ///
     /// # Errors
     /// Every problem of the text: syntax, unknown names, dimensions.
@@ -272,7 +272,7 @@ impl NetworkBuilder {
         Expression::parse(text)?.compile(&self.scope(context), expected)
     }
 
-    /// Compiles an expression over the parameters, signals and tables added so far and `t`.
+    /// Compiles an expression over the parameters, signals and tables added up to now and `t`.
     ///
     /// # Errors
     /// Every problem of the text: syntax, unknown names, dimensions.

@@ -25,7 +25,7 @@ impl NetworkBuilder {
     }
 
     /// Compiles an expression over parameters, `t`, signals, tables, and the temperatures and heat
-    /// flows of all parts added so far; see [`NetworkBuilder::post_scope`].
+    /// flows of all parts added up to now; see [`NetworkBuilder::post_scope`].
     ///
     /// # Errors
     /// Every problem of the text: syntax, unknown names, dimensions.

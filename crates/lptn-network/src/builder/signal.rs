@@ -38,7 +38,7 @@ impl NetworkBuilder {
         id
     }
 
-    /// The names and types of the signals added so far.
+    /// The names and types of the signals added up to now.
     pub fn signals(&self) -> impl Iterator<Item = (&str, Type)> {
         self.parts.layout.signals().iter().map(|signal| (signal.name.as_str(), signal.ty))
     }

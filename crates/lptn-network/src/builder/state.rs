@@ -193,7 +193,7 @@ impl NetworkBuilder {
         Ok(id)
     }
 
-    /// The value of an input in SI units with the parameters added so far at their own values;
+    /// The value of an input in SI units with the parameters added up to now at their own values;
     /// `None` if it depends on more.
     pub fn nominal(&self, input: &Input) -> Option<f64> {
         let mut scope = crate::evaluation::Evaluation::new(&self.parts.layout, &[]);

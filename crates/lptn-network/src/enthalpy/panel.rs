@@ -73,7 +73,7 @@ impl Panel {
         terms.fold(0.0, |sum, (k, c)| sum * x + k as f64 * c) / self.half()
     }
 
-    /// The mean capacity between two temperatures inside: `x1^k + x1^(k-1) x2 + .. + x2^k` over
+    /// The mean capacity between two temperatures inside: `x1^k + x1^(k-1) x2 + … + x2^k` over
     /// `k + 1` is the mean of `x^k`, which loses no digits however near they are.
     pub(crate) fn mean(&self, from: f64, to: f64) -> f64 {
         let (first, second) = (self.x(from), self.x(to));

@@ -31,7 +31,7 @@ impl Face {
     /// All six.
     pub const ALL: [Self; 6] = [Self::X0, Self::X1, Self::Y0, Self::Y1, Self::Z0, Self::Z1];
 
-    /// Its name on a block: `x0`, `x1`, ..
+    /// Its name on a block: `x0`, `x1`, …
     pub fn name(self) -> &'static str {
         ["x0", "x1", "y0", "y1", "z0", "z1"][self as usize]
     }

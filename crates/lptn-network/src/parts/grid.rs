@@ -72,7 +72,7 @@ pub(crate) fn number(at: [usize; 3], counts: [usize; 3]) -> usize {
     (at[0] * counts[1] + at[1]) * counts[2] + at[2]
 }
 
-/// The places of so many cells along each axis, the last one running fastest.
+/// The places of this number of cells along each axis, the last one running fastest.
 pub(crate) fn places_of([x, y, z]: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
     (0..x).flat_map(move |i| (0..y).flat_map(move |j| (0..z).map(move |k| [i, j, k])))
 }

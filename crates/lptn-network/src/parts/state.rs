@@ -84,7 +84,7 @@ pub(crate) fn inner_name(state: &str) -> String {
 ///
 /// With a tolerance of 1e-5 K the state has an error of about 1e-7 of its size. The integrator
 /// limits the error of a step, and an integral collects those of the temperatures in its rate: steps
-/// are allowed an eighth of it. Of 1000 random controllers the worst was then off by 7 tolerances
+/// are allowed an eighth of it. The worst of 1000 random controllers was then off by 7 tolerances
 /// instead of 31, for a third more steps.
 pub(crate) fn scale_of(size: f64, ty: Type, balanced: bool) -> f64 {
     let usual = usual_size(balanced);

@@ -91,7 +91,7 @@ impl<'a> Along<'a> {
         part.span = (from, to);
         let share = |time: f64| ((time - step.span.0) / step.length).clamp(0.0, step.share);
         let [start, end] = step.ends;
-        // what the terms leave of the way, up to the end of the step
+        // the change over the step that the terms leave
         add_up(&weights(step.share), step.terms, &mut self.apart);
         for ((apart, end), start) in self.apart.iter_mut().zip(end).zip(start) {
             *apart = end - start - *apart;

@@ -55,7 +55,7 @@ impl Peaks {
             for place in part * FINE..(part + 1) * FINE {
                 let middle = half * (2 * place + 1) as f64;
                 let values = laguerre(middle);
-                // L_n' = -(L_0 + .. + L_(n-1)), and |L_n''(x)| <= n (n - 1)/2 exp(x/2)
+                // L_n' = -(L_0 + … + L_(n-1)), and |L_n''(x)| <= n (n - 1)/2 exp(x/2)
                 // (22.8.6 and 22.14.13)
                 let bend = 0.25 * half * half * (0.5 * (middle + half)).exp();
                 let mut sum = 0.0_f64;

@@ -34,7 +34,7 @@ pub(crate) struct Carried<'a> {
     ways: [Way; 2],
     rates: Mat<f64>,
     drive: Mat<f64>,
-    /// The largest difference of the two ways so far in K.
+    /// The largest difference of the two ways up to now in K.
     apart: f64,
 }
 
@@ -108,7 +108,7 @@ impl<'a> Carried<'a> {
         (0..self.members.len()).map(|i| rises[(i, 0)]).fold(0.0, f64::max)
     }
 
-    /// Effect of rounding so far in K, by the difference of the two ways.
+    /// Effect of rounding up to now in K, by the difference of the two ways.
     pub(crate) fn rounding(&self) -> f64 {
         self.apart
     }

@@ -154,8 +154,8 @@ impl Chain {
         }
     }
 
-    /// Adds the effects of the states one, two, .. units before: `x = sum_k exp(k unit A) x`, as
-    /// `(1 + E)(1 + E^2)(1 + E^4) ..`.
+    /// Adds the effects of the states one, two, … units before: `x = sum_k exp(k unit A) x`, as
+    /// `(1 + E)(1 + E^2)(1 + E^4) …`.
     pub(crate) fn add_repeats(&self, x: &mut Mat<f64>, unit: f64) {
         for level in self.levels.iter().filter(|level| level.length >= 0.75 * unit) {
             let before = dense::product(level.carried.as_ref(), x.as_ref());

@@ -48,7 +48,7 @@ impl Rule {
     }
 }
 
-/// `P_0(x) ..`
+/// `P_0(x) …`
 fn polynomials<const N: usize>(x: f64) -> [f64; N] {
     let mut p = [1.0; N];
     p[1] = x;

@@ -92,7 +92,7 @@ pub(crate) struct March<'a> {
     /// No panel is longer if a series represents an input: changes between its points might be
     /// missed.
     longest: f64,
-    /// Largest error of the series so far, in K: that of panels on which it lasts, and the sum of
+    /// Largest error of the series up to now, in K: that of panels on which it lasts, and the sum of
     /// those on which it is made short instead.
     lasting: f64,
     summed: f64,
@@ -143,7 +143,7 @@ impl<'a> March<'a> {
         self.inputs.at(time)
     }
 
-    /// Error of the series instead of the inputs so far, in K; `None` if every input is constant or
+    /// Error of the series instead of the inputs up to now, in K; `None` if every input is constant or
     /// a straight line, so that there is no such error.
     pub(crate) fn series_error(&self) -> Option<f64> {
         self.inputs.need_quadrature().then_some(self.lasting + self.summed)

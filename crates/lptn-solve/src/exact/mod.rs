@@ -260,9 +260,9 @@ struct Rows<'a> {
     rises: Vec<f64>,
     temperatures: Vec<f64>,
     nodes: usize,
-    /// Largest rise so far.
+    /// Largest rise up to now.
     span: f64,
-    /// Miss of the modes at the start, and their largest defect so far, in K.
+    /// Miss of the modes at the start, and their largest defect up to now, in K.
     missed: f64,
     defect: f64,
 }

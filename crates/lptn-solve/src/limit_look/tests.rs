@@ -107,7 +107,7 @@ fn what_cannot_count_costs_no_look() {
     let valley = |t: f64| [if t <= 10.0 { 1.0 + t } else { 2.5 + (t - 13.6) * (t - 13.6) }];
     let (found, looks) = look(&TWO, valley, [10.0]);
     assert_eq!((found.seen[0].margin, looks), (1.0, 0));
-    // a valley that no point shows to be below the least so far
+    // a valley that no point shows to be below the least up to now
     let valley = |t: f64| [if t <= 10.0 { 1.0 + t } else { 0.5 + (t - 13.6) * (t - 13.6) }];
     let (found, looks) = look(&TWO, valley, [10.0]);
     near(found.seen[0].margin, 0.5);
@@ -119,7 +119,7 @@ fn what_cannot_count_costs_no_look() {
     assert_eq!(looks, 1, "the passage at the start");
 }
 
-/// Above the least so far, the jump of an unbroken limit is ignored.
+/// Above the least up to now, the jump of an unbroken limit is ignored.
 #[test]
 fn a_jump_that_cannot_count_is_ignored() {
     let jump = |t: f64| if t < 3.3 { 4.0 } else { 9.0 };

@@ -1,4 +1,4 @@
-//! The map from the start of a cycle to its end, by differences of the cycles so far.
+//! The map from the start of a cycle to its end, by differences of the cycles up to now.
 //!
 //! With `f = g - y`, y the start of a cycle and g its end, the next start is `g - dG c`, in which c
 //! makes `f - dF c` smallest and dG, dF are the differences between cycles: Anderson's mixing (D.

@@ -27,7 +27,7 @@ pub(super) struct Lookout {
     points: [Vec<f64>; POINTS],
     /// True if a level is searched for.
     levels: bool,
-    /// The highest temperature in K of all so far, if only the hottest counts.
+    /// The highest temperature in K of all up to now, if only the hottest counts.
     highest: Option<f64>,
     /// Number of steps in which a node was evaluated more closely.
     sought: u64,

@@ -14,15 +14,20 @@ use crate::transient::Run;
 
 impl Run<'_> {
     /// Change of the heat content of each node whose capacity follows states, in J; NaN, which
-    /// breaks the energy balance, if a capacity has no value.
-    fn filled(&self) -> Vec<f64> {
+    /// breaks the energy balance, if a capacity has no value. Also the sum in J/K by which those
+    /// capacities grow that do.
+    fn filled(&self) -> (Vec<f64>, f64) {
         let system = self.recorder.system();
         let mut work = system.workspace();
         let count = system.network().state_capacities().len();
-        let mut at =
-            |y: &[f64]| system.contents(&mut work, y).unwrap_or_else(|_| vec![f64::NAN; count]);
+        let mut at = |y: &[f64]| {
+            let contents = system.contents(&mut work, y).unwrap_or_else(|_| vec![f64::NAN; count]);
+            (contents, system.capacities_of_states(&mut work, y))
+        };
         let (before, now) = (at(&self.initial), at(self.integrator.state()));
-        now.iter().zip(before).map(|(now, before)| now - before).collect()
+        let heat = now.0.iter().zip(before.0).map(|(now, before)| now - before).collect();
+        let grown = now.1.iter().zip(before.1).map(|(now, before)| (now - before).max(0.0)).sum();
+        (heat, grown)
     }
 
     pub(super) fn finish(mut self, end: RunStatus) -> Result<Solution, TransientError> {
@@ -35,7 +40,8 @@ impl Run<'_> {
                 stored[id.index()] = capacity * (now - before);
             }
         }
-        for (of, heat) in system.network().state_capacities().iter().zip(self.filled()) {
+        let (filled, grown) = self.filled();
+        for (of, heat) in system.network().state_capacities().iter().zip(filled) {
             stored[of.node.index()] = heat;
         }
         let pipes = self.pipes.as_ref().map(|pipes| pipes.borrow());
@@ -50,7 +56,7 @@ impl Run<'_> {
         let integrals = integrals.to_vec();
         let at_the_end = (self.integrator.time(), self.integrator.state());
         let work = self.recorder.at_state(at_the_end);
-        let books = self.books.close(system, work, &integrals, (stored, self.tolerance));
+        let books = self.books.close(system, work, &integrals, (stored, (self.tolerance, grown)));
         let controls = self.switching.as_ref().map_or_else(Vec::new, Switching::controls);
         let events = self.switching.map_or_else(Vec::new, |switching| switching.events);
         let stood = self.recorder.branch().to_vec();

@@ -94,7 +94,7 @@ fn a_level_is_reached_from_either_side_once() {
     }
 }
 
-/// By a parabola through the highest point and its neighbours, if it is above the peak so far.
+/// By a parabola through the highest point and its neighbours, if it is above the peak up to now.
 #[test]
 fn a_top_is_promising_above_the_peak_so_far() {
     let points = |at: f64, height: f64| -> Vec<(f64, f64)> {

@@ -33,7 +33,7 @@ pub(crate) fn last_kept<E>(
     Ok(bracket.ends())
 }
 
-/// `b` is the best point so far, `a` the one before it, and `c` the last one of the other sign.
+/// `b` is the best point up to now, `a` the one before it, and `c` the last one of the other sign.
 struct Bracket {
     a: Point,
     b: Point,

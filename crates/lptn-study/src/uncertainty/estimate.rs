@@ -53,7 +53,7 @@ pub(crate) fn quantile(ascending: &[f64], share: f64) -> f64 {
 mod tests {
     use super::{Estimate, moments, quantile};
 
-    /// `numpy.quantile([1, 2, 4, 8], q)` and `numpy.std(.., ddof=1)`, NumPy 2.4.6.
+    /// `numpy.quantile([1, 2, 4, 8], q)` and `numpy.std(…, ddof=1)`, NumPy 2.4.6.
     #[test]
     fn quantiles_and_deviations_are_those_of_numpy() {
         let sample = [1.0, 2.0, 4.0, 8.0];

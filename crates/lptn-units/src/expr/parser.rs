@@ -136,7 +136,7 @@ impl Parser<'_> {
         self.at.checked_sub(1).and_then(|i| self.tokens.get(i))
     }
 
-    /// `if t < 5 [s] then ..`.
+    /// `if t < 5 [s] then …`.
     fn after_if(&self) -> bool {
         matches!(self.before(), Some((Token::Name(name), _)) if name == "if")
     }

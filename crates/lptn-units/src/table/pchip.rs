@@ -48,7 +48,7 @@ fn same_sign(a: f64, b: f64) -> bool {
     (a > 0.0 && b > 0.0) || (a < 0.0 && b < 0.0)
 }
 
-/// The cubic piece over `x0 .. x1` with these values and slopes at its ends: value and slope at
+/// The cubic piece over `x0 … x1` with these values and slopes at its ends: value and slope at
 /// `x`, exact at both ends.
 pub(super) fn cubic(
     [x0, x1]: [f64; 2],

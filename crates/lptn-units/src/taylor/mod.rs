@@ -15,7 +15,7 @@ use interval::Interval;
 /// Number of coefficients: the value, and derivatives to the ninth.
 const ORDERS: usize = 10;
 
-/// Bounds on `f(x)` for every x of an interval, and on `f'(x)`, `f''(x)/2!`, .. for every x between
+/// Bounds on `f(x)` for every x of an interval, and on `f'(x)`, `f''(x)/2!`, … for every x between
 /// its ends.
 ///
 /// ```

@@ -19,7 +19,7 @@ impl SpeedUnit {
         format!("{} {}", significant(self.0.from_si(si), 4), self.0.text)
     }
 
-    /// `1000 .. 7000 rpm`.
+    /// `1000 … 7000 rpm`.
     pub(super) fn range(&self, (low, high): (f64, f64)) -> String {
         format!("{} .. {}", significant(self.0.from_si(low), 4), self.speed(high))
     }

@@ -40,7 +40,7 @@ impl InterruptedFit {
         Self { input, stage, study, best, values }
     }
 
-    /// The best values so far as a table; `None` if there are none.
+    /// The best values up to now as a table; `None` if there are none.
     pub fn text(&self) -> Option<Text> {
         let values = self.best.as_ref()?;
         let mut text = Text::new();

@@ -15,7 +15,7 @@ use lptn_answer::exit::Exit;
 use lptn_answer::failure::{Failure, reason};
 use lptn_answer::sweep::{Lines, SweepAsked, Tally, damaged, read_row};
 
-/// The rows so far, and the hash of the file.
+/// The rows up to now, and the hash of the file.
 pub(crate) struct Growing {
     path: PathBuf,
     file: Hashing<File>,

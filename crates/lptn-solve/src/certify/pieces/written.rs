@@ -7,7 +7,7 @@ use crate::certify::bound::Line;
 use crate::certify::way::{self, SAMPLES};
 
 impl Pieces<'_> {
-    /// Writes the bounds of rows and results up to the end of a piece, and of the run so far: the
+    /// Writes the bounds of rows and results up to the end of a piece, and of the run up to now: the
     /// larger ones of some lines, while a control may have either state if one is given.
     pub(super) fn write(
         &mut self,
@@ -38,7 +38,7 @@ impl Pieces<'_> {
         }
     }
 
-    /// Writes the bounds of the run so far.
+    /// Writes the bounds of the run up to now.
     fn write_most(&mut self, (from, to): (f64, f64), most: &dyn Fn(usize) -> f64) {
         let way = &self.way;
         let place = |time: f64| (2.0 * (time - from) / (to - from) - 1.0).clamp(-1.0, 1.0);

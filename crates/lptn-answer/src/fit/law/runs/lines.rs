@@ -91,7 +91,7 @@ fn table(lines: &[ColumnLines], speed: &SpeedUnit) -> TextTable {
         .into()
 }
 
-/// `ring_gear less housing: dT 0.0012 ± 0.0015 K/rpm (p = 0.42), t_RC ..`.
+/// `ring_gear less housing: dT 0.0012 ± 0.0015 K/rpm (p = 0.42), t_RC …`.
 fn differ(difference: &ColumnDifference, speed: &SpeedUnit) -> String {
     let part = |(of, found): (Of, Option<Estimate>)| {
         let (number, unit) = (of.with_interval(found, speed), of.shown(speed).0);

@@ -67,7 +67,7 @@ pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Fai
     Ok(exit)
 }
 
-/// Shows the best values so far, and how to continue from them.
+/// Shows the best values up to now, and how to continue from them.
 fn interrupted(
     fit: &InterruptedFit,
     args: &NetworkArgs,
