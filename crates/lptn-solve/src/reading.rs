@@ -63,7 +63,7 @@ impl<'a> Reading<'a> {
         }
         scope.set_time(at.0, at.1);
         if *reads {
-            scope.set_temperatures(nodes, system.boundary_temperatures(work));
+            network.place_temperatures(scope, nodes, system.boundary_temperatures(work));
         }
         self.heat_is_due = known;
         if !known {

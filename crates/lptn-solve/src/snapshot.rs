@@ -84,7 +84,7 @@ impl Snapshot {
         let mut scope = network.evaluation();
         scope.set_positions(&self.positions);
         scope.set_time(self.time, just_after(self.time));
-        scope.set_temperatures(&self.temperatures, &self.boundary_temperatures);
+        network.place_temperatures(&mut scope, &self.temperatures, &self.boundary_temperatures);
         let heats: Vec<f64> =
             network.named_heats().map(|heat| self.heat(network, heat, &mut scope)).collect();
         scope.set_heats(&heats);

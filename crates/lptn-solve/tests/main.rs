@@ -48,6 +48,7 @@ mod response;
 mod sampled;
 mod sensitive;
 mod snapshot;
+mod state_bounds;
 mod steady;
 mod steady_events;
 mod without_state;

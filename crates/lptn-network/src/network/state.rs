@@ -1,5 +1,6 @@
 //! States among the nodes and sources of a network.
 
+use crate::evaluation::Evaluation;
 use crate::id::{Field, Item, NodeId, SourceId, StateId, SwitchId};
 use crate::network::Network;
 use crate::parts::state::State;
@@ -53,11 +54,26 @@ impl Network {
     }
 
     /// The value of a state at these temperatures of all nodes in K, in SI units: between its
-    /// bounds, which its node passes by a hundredth of the tolerance.
+    /// bounds, which its node passes by a small part of the tolerance.
     pub fn state_value(&self, id: StateId, nodes: &[f64]) -> f64 {
         let state = &self.states()[id.index()];
         let [least, most] = self.numbers.bounds[id.index()];
         state.value(nodes[state.node.index()]).max(least).min(most)
+    }
+
+    /// Sets the temperatures of all nodes and boundaries in K for results: states are between their
+    /// bounds.
+    pub fn place_temperatures(&self, scope: &mut Evaluation, nodes: &[f64], boundaries: &[f64]) {
+        let mut inside: Option<Vec<f64>> = None;
+        for (state, id) in self.states().iter().zip(self.state_ids()) {
+            let (node, [least, most]) = (state.node.index(), self.state_bounds(id));
+            let t = nodes[node];
+            let bound = if t < least { Some(least) } else { Some(most).filter(|most| t > *most) };
+            if let Some(bound) = bound {
+                inside.get_or_insert_with(|| nodes.to_vec())[node] = bound;
+            }
+        }
+        scope.set_temperatures(inside.as_deref().unwrap_or(nodes), boundaries);
     }
 
     /// Least and greatest temperature in K of the node of a state: its bounds.

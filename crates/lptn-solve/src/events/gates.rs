@@ -3,11 +3,18 @@
 use std::sync::Arc;
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_network::{Acts, ControlId, End, InputError, Positions};
+use lptn_network::{Acts, ControlId, End, Field, InputError, Item, Network, Positions, SwitchId};
 
 /// A comparison changes only if its sides differ by this part of the tolerance times the slope of
 /// their difference. Otherwise rounding at the moment of an event would decide which side it is on.
 const MARGIN: f64 = 0.01;
+
+/// The share of the margin by which a state passes its bound before it stops or goes on: less than
+/// a strict comparison with the bound needs to change, more than one that is true of equal sides.
+const BOUND: f64 = 0.3;
+
+/// The share of the margin if the new truth is that of equal sides.
+const EQUAL: f64 = 0.1;
 
 /// A thermostat with constant thresholds that feels a node with capacity.
 #[derive(Clone, Copy, Debug)]
@@ -42,6 +49,14 @@ pub(crate) struct Gates {
     room: f64,
     /// Every control, if all that switches are plain thermostats.
     plain: Arc<Vec<Plain>>,
+    /// For each comparison true if it stops a state at its bound.
+    stops: Arc<Vec<bool>>,
+}
+
+/// True for the comparison of a state with its bound.
+fn stops(network: &Network, id: SwitchId) -> bool {
+    let (item, field) = network.place_of_switch(id);
+    matches!((item, field), (Item::State(_), Field::Least | Field::Most))
 }
 
 impl Gates {
@@ -54,6 +69,7 @@ impl Gates {
             margins: vec![0.0; network.switches().len()],
             room: 0.0,
             plain: Arc::new(plain.unwrap_or_default()),
+            stops: Arc::new(network.switch_ids().map(|id| stops(network, id)).collect()),
         }
     }
 
@@ -97,13 +113,15 @@ impl Gates {
         }
         for ((id, margin), out) in system.network().switch_ids().zip(&self.margins).zip(switches) {
             let (difference, _) = system.switch_difference(work, id)?;
-            let towards_true = if system.network().switches()[id.index()].holds(1.0) {
-                difference
-            } else {
-                -difference
-            };
+            let switch = &system.network().switches()[id.index()];
+            let towards_true = if switch.holds(1.0) { difference } else { -difference };
             let holds = work.positions().switches[id.index()];
-            *out = if holds { -towards_true } else { towards_true } - margin;
+            let share = match self.stops[id.index()] {
+                true => BOUND,
+                false if switch.holds(0.0) != holds => EQUAL,
+                false => 1.0,
+            };
+            *out = if holds { -towards_true } else { towards_true } - share * margin;
         }
         Ok(())
     }
