@@ -11,7 +11,7 @@ use crate::size::judge::{Care, Demand, Judge, Judged};
 /// in SI units.
 ///
 /// # Errors
-/// As [`judge`].
+/// As [`crate::size::judge()`].
 pub fn certify(demand: Demand<'_>, design: &[(ParameterId, f64)]) -> Result<Judged, SizeError> {
     Judge::new(demand)?.judge(design, Care::Certified)
 }
