@@ -105,7 +105,7 @@ fn other_offered_studies_are_accepted_in_every_shipped_network() {
     assert!(failed.is_empty(), "{}:\n\n{}", failed.len(), failed.join("\n\n"));
 }
 
-/// A fan must be strong enough and a power small enough: what is sought follows from the physics.
+/// A fan must be strong enough and a power small enough: the direction follows from the physics.
 #[test]
 fn what_is_cheap_is_sought() {
     let network = |parameter: &str, path: &str, source: &str| {

@@ -16,8 +16,8 @@
 //! (`pieces/window.rs`).
 //!
 //! Nothing is taken from the integrator but numbers, and each bound is checked after it is found.
-//! Covered are networks without comparisons of temperatures, pipes, heat contents over temperature, capacities that
-//! follow states, and balances of massless nodes; [`Uncertified`] names the others. Rounding is
+//! Covered are networks without comparisons of temperatures, pipes, heat contents over
+//! temperature, capacities that follow states, and balances of massless nodes; [`Uncertified`] names the others. Rounding is
 //! not directed: margins of some rounding errors of each sum are added.
 
 mod along;
@@ -94,7 +94,7 @@ pub enum Uncertified {
         help "choose a smaller tolerance, `--tolerance`, or run without --certify",
         class lptn_units::Class::Numbers;
     /// A cycle does not bring differences of its start together: the node that keeps the largest
-    /// share of its own, and that share.
+    /// share of its difference, and that share.
     Cycle { name: String, share: f64 } = "certify::cycle",
         format!(
             "by its bounds a cycle leaves {} % of a difference at `{name}`, and only a smaller \

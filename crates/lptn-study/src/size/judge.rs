@@ -130,7 +130,7 @@ pub struct Judged {
     pub objective: Option<f64>,
     /// Proven bounds on each margin, if they were asked for; `None` for one without.
     pub proven: Vec<Option<ProvenMargin>>,
-    /// The reason why there are no proven bounds, in the first load case without.
+    /// The reason of the first load case without proven bounds.
     pub unproven: Option<Uncertified>,
     /// Error of its temperatures in K, or in SI units that of a margin that changes faster than
     /// steps are evaluated; 0 in steady state, which is refined to rounding.
