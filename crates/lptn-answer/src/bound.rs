@@ -2,8 +2,8 @@
 
 use lptn_netlist::Diagnostic;
 use lptn_network::{Network, list_of_names};
-use lptn_report::significant;
-use lptn_solve::{Solution, Unbounded};
+use lptn_report::{duration, significant};
+use lptn_solve::{Solution, Unbounded, Undecided};
 
 /// Doubts in the numbers of a run: its error, unless that is proven, and its balance.
 pub fn doubts(solution: &Solution, proven: bool) -> Vec<Diagnostic> {
@@ -41,6 +41,7 @@ pub fn not_bounded(network: &Network, why: Option<&Unbounded>) -> Option<String>
              with a smaller --tolerance",
             significant(*at, 6)
         ),
+        Unbounded::Switch(undecided) => return Some(at_its_threshold(network, undecided)),
         Unbounded::Switches { count } => {
             format!(
                 "each of {count} switches shifts the times of the next ones; compare with a \
@@ -49,6 +50,25 @@ pub fn not_bounded(network: &Network, why: Option<&Unbounded>) -> Option<String>
         }
     };
     Some(format!("error not bounded by the tolerance: it adds up, because {why}"))
+}
+
+/// A switch that the error of the run decides, as a sentence.
+fn at_its_threshold(network: &Network, undecided: &Undecided) -> String {
+    let Undecided { kind, from, to, switches, error } = undecided;
+    let name = kind.name(network);
+    let late = duration(to - from, 2);
+    let [from, to] = [from, to].map(|time| duration(*time, 4));
+    match switches {
+        true => format!(
+            "`{name}` switches at {to} with an error of up to {late}, as it approaches its \
+             threshold slowly: temperatures may err by {} K; compare with a smaller --tolerance",
+            significant(*error, 1)
+        ),
+        false => format!(
+            "not determined whether `{name}` switches: from {from} to {to} it is at its \
+             threshold, within the error of the run"
+        ),
+    }
 }
 
 /// Message if the bound of the energy balance is too wide to prove anything.

@@ -109,7 +109,7 @@ pub use certify::{Certificate, Uncertified};
 pub use conductances::Conductances;
 pub use driving::largest_of_inputs;
 pub use error::{SteadyError, TransientError};
-pub use events::{ControlState, Event, EventIndicator, EventKind, PositiveSide};
+pub use events::{ControlState, Event, EventIndicator, EventKind, PositiveSide, Undecided};
 pub use exact::{Difference, ExactError, ExactSolution};
 pub use last::LastState;
 pub use ledger::{Ledger, LedgerError};

@@ -393,6 +393,7 @@ impl<'a> Recorder<'a> {
             growth: 1.0,
             certificate: None,
             unresolved: None,
+            undecided: None,
             made_up: 1.0,
             sensitivities: self.sensed.map_or_else(SensitivityRows::default, Sensed::into_rows),
             end_state: State::of_carried(Vec::new()),

@@ -13,7 +13,7 @@ use crate::balance::Balance;
 use crate::certify::{Certificate, Uncertified};
 use crate::columns::Columns;
 use crate::curved::MOST_REMEMBERED;
-use crate::events::{ControlState, Event, EventKind};
+use crate::events::{ControlState, Event, EventKind, Undecided};
 use crate::extremes::Extremes;
 use crate::growth::TELLING;
 use crate::last::LastState;
@@ -88,6 +88,8 @@ pub struct Solution {
     pub(crate) certificate: Option<Result<Certificate, Uncertified>>,
     /// The first time in s at which a step was accepted that passes a bend over temperature.
     pub(crate) unresolved: Option<f64>,
+    /// The first switch that the error of the run decides.
+    pub(crate) undecided: Option<Undecided>,
     pub(crate) made_up: f64,
     pub(crate) end_state: State,
     pub(crate) sensitivities: SensitivityRows,
@@ -389,6 +391,9 @@ impl Solution {
         let ungrounded: Vec<NodeId> = self.network().ungrounded().into_iter().flatten().collect();
         if !ungrounded.is_empty() {
             return Some(Unbounded::NoBoundary(ungrounded));
+        }
+        if let Some(undecided) = self.undecided {
+            return Some(Unbounded::Switch(undecided));
         }
         let steps = self.remembered;
         if steps > MOST_REMEMBERED {

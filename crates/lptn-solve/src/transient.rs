@@ -16,7 +16,7 @@ use crate::balance::Books;
 use crate::certify::{Certifier, Uncertified};
 use crate::curved::Curved;
 use crate::error::TransientError;
-use crate::events::Switching;
+use crate::events::{Crossings, Switching};
 use crate::growth::Growth;
 use crate::guard::{Guard, Verdict};
 use crate::heat::Heat;
@@ -295,6 +295,7 @@ impl<'a> Run<'a> {
                 }
             }
         }
+        self.end_stays();
         self.finish(RunStatus::Reached).map(Some)
     }
 
@@ -357,7 +358,7 @@ impl<'a> Run<'a> {
         if verdict == Verdict::Back {
             return Ok(());
         }
-        let (mut due, crossed) = self.crossings(&step)?;
+        let Crossings { mut due, time: crossed, looks } = self.crossings(&step)?;
         let to = self.reaches(step.from, crossed)?;
         let (to, leaves) = self.pipes_reach(step.from, to)?;
         if to < crossed {
@@ -377,6 +378,7 @@ impl<'a> Run<'a> {
             self.guard_begins();
         }
         self.errors_go_on(to - step.from);
+        self.watch_thresholds(&looks, to);
         if to >= segment.to {
             self.due = due; // the next segment begins with it
             return Ok(());

@@ -2,6 +2,8 @@
 
 use lptn_network::NodeId;
 
+use crate::events::Undecided;
+
 /// Reason why the tolerance does not bound the error of a run: errors of the steps add up.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unbounded {
@@ -23,6 +25,8 @@ pub enum Unbounded {
         /// The first such time in s.
         at: f64,
     },
+    /// Something switches, or does not, by an error of the run.
+    Switch(Undecided),
     /// Switch times depend on the solution: an error in the time of one switch does not decay but
     /// moves all that follow. There were more of them than the tolerance is tightened for.
     Switches {

@@ -37,6 +37,7 @@ mod methods;
 mod modes;
 mod modes_near;
 mod near_state;
+mod near_thresholds;
 mod out_of_range;
 mod outputs;
 mod own_states;

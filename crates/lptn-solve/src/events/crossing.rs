@@ -42,43 +42,34 @@ impl From<StopReason> for Trouble {
     }
 }
 
-/// Positions that have to switch inside a step or at its end, and the time in s; none at the end of
-/// a step without an event.
+/// Events of a step.
+pub(crate) struct Crossings {
+    /// Positions that have to switch inside the step or at its end; none without an event.
+    pub(crate) due: Vec<usize>,
+    /// Their time in s, or the end of the step.
+    pub(crate) time: f64,
+    /// All evaluations up to that time, in order of time.
+    pub(crate) looks: Vec<Look>,
+}
+
+/// Searches a step for the first moment at which something has to switch.
 ///
 /// An excess that becomes positive and ends again between two evaluations is searched for: more are
 /// made if its second difference allows a top above zero.
-pub(crate) fn find(
-    integrator: &mut Stepping<'_>,
-    step: &Step,
-) -> Result<(Vec<usize>, f64), Trouble> {
+pub(crate) fn find(integrator: &mut Stepping<'_>, step: &Step) -> Result<Crossings, Trouble> {
     let mut search = Search::new(integrator);
-    let place = |k: usize| match k {
-        PARTS => step.to,
-        _ => step.from + k as f64 / PARTS as f64 * (step.to - step.from),
-    };
-    let mut before = search.at(integrator, step.from)?;
-    for k in (2..=PARTS).step_by(2) {
-        let middle = search.at(integrator, place(k - 1))?;
-        let after = search.at(integrator, place(k))?;
-        // at a root the integrator's result is better
-        let counts = !(k == PARTS && step.roots);
-        let found = search.first([&before, &middle, &after], (HALVINGS, counts), integrator)?;
-        if let Some(between) = found {
-            return search.narrow(integrator, between);
-        }
-        before = after;
-    }
-    let rising =
-        integrator.root_directions().iter().enumerate().filter(|(_, direction)| **direction > 0);
-    let due = if step.roots { rising.map(|(position, _)| position).collect() } else { Vec::new() };
-    Ok((due, step.to))
+    let (due, time) = search.first_of(integrator, step)?;
+    let mut looks = search.seen;
+    looks.retain(|look| look.time <= time);
+    looks.sort_by(|a, b| a.time.total_cmp(&b.time));
+    Ok(Crossings { due, time, looks })
 }
 
 /// Excess of everything that switches over its switching point at a time.
 #[derive(Clone)]
-struct Look {
-    time: f64,
-    excess: Vec<f64>,
+pub(crate) struct Look {
+    pub(crate) time: f64,
+    pub(crate) excess: Vec<f64>,
 }
 
 impl Look {
@@ -101,21 +92,55 @@ struct Search {
     state: Vec<f64>,
     /// Bends below this do not count.
     rooms: Vec<f64>,
-    looks: usize,
+    seen: Vec<Look>,
 }
 
 impl Search {
     fn new(integrator: &Stepping<'_>) -> Self {
         let rooms = integrator.system().gates.rooms();
-        Self { state: integrator.state().to_vec(), rooms, looks: 0 }
+        Self { state: integrator.state().to_vec(), rooms, seen: Vec::new() }
+    }
+
+    /// Positions that have to switch, and the time in s; none at the end of a step without an
+    /// event.
+    fn first_of(
+        &mut self,
+        integrator: &mut Stepping<'_>,
+        step: &Step,
+    ) -> Result<(Vec<usize>, f64), Trouble> {
+        let place = |k: usize| match k {
+            PARTS => step.to,
+            _ => step.from + k as f64 / PARTS as f64 * (step.to - step.from),
+        };
+        let mut before = self.at(integrator, step.from)?;
+        for k in (2..=PARTS).step_by(2) {
+            let middle = self.at(integrator, place(k - 1))?;
+            let after = self.at(integrator, place(k))?;
+            // at a root the integrator's result is better
+            let counts = !(k == PARTS && step.roots);
+            let found = self.first([&before, &middle, &after], (HALVINGS, counts), integrator)?;
+            if let Some(between) = found {
+                return self.narrow(integrator, between);
+            }
+            before = after;
+        }
+        let rising = integrator
+            .root_directions()
+            .iter()
+            .enumerate()
+            .filter(|(_, direction)| **direction > 0);
+        let due =
+            if step.roots { rising.map(|(position, _)| position).collect() } else { Vec::new() };
+        Ok((due, step.to))
     }
 
     fn at(&mut self, integrator: &mut Stepping<'_>, time: f64) -> Result<Look, Trouble> {
-        self.looks += 1;
         integrator.interpolate(time, &mut self.state)?;
         let mut excess = vec![0.0; self.rooms.len()];
         integrator.system_mut().excess(time, &self.state, &mut excess)?;
-        Ok(Look { time, excess })
+        let look = Look { time, excess };
+        self.seen.push(look.clone());
+        Ok(look)
     }
 
     /// Two evaluations between which something becomes due: not at the first, but at the second.
@@ -126,7 +151,7 @@ impl Search {
         (halvings, counts): (usize, bool),
         integrator: &mut Stepping<'_>,
     ) -> Result<Option<(Look, Look)>, Trouble> {
-        if halvings > 0 && self.looks < LOOKS && self.may_rise([before, middle, after]) {
+        if halvings > 0 && self.seen.len() < LOOKS && self.may_rise([before, middle, after]) {
             let left = self.at(integrator, before.time.midpoint(middle.time))?;
             let found = self.first([before, &left, middle], (halvings - 1, true), integrator)?;
             if found.is_some() {

@@ -54,7 +54,7 @@ pub(crate) struct Gates {
 }
 
 /// True for the comparison of a state with its bound.
-fn stops(network: &Network, id: SwitchId) -> bool {
+pub(super) fn stops(network: &Network, id: SwitchId) -> bool {
     let (item, field) = network.place_of_switch(id);
     matches!((item, field), (Item::State(_), Field::Least | Field::Most))
 }

@@ -8,9 +8,10 @@
 //! within ten tolerances. Beyond that, a run reports that its error is not bounded.
 
 use lptn_assembly::ThermalSystem;
-use lptn_network::{Network, Positions};
+use lptn_network::{End, Network, Positions};
 
-use crate::events::{ControlState, Event, EventKind, Gates};
+use crate::events::gates::stops;
+use crate::events::{ControlState, Event, EventKind, Gates, Nearness, Stay, Undecided};
 use crate::heat::Heat;
 use crate::stop_reason::StopReason;
 
@@ -42,6 +43,21 @@ pub(crate) struct Switching<'a> {
     part: f64,
     /// Kind of each position: controls, then comparisons.
     kinds: Vec<EventKind>,
+    pub(crate) nearness: Nearness,
+    /// The first switch that the error of the run decides.
+    pub(crate) undecided: Option<Undecided>,
+}
+
+/// True if the moment of a switch depends on computed temperatures. A state at its bound does not
+/// count: it stops there by its own rate, which changes nothing else at once.
+fn is_computed(network: &Network, kind: EventKind) -> bool {
+    match kind {
+        EventKind::Control(id) => {
+            network.thermostat(id).is_none_or(|of| !matches!(of.sense, End::Boundary(_)))
+        }
+        EventKind::Comparison(id) => !stops(network, id),
+        EventKind::Limit(_) => false,
+    }
 }
 
 impl<'a> Switching<'a> {
@@ -68,7 +84,17 @@ impl<'a> Switching<'a> {
             events: Vec::new(),
             changes: vec![0; network.switches().len()],
             part: 0.0,
+            nearness: Nearness::new(kinds.iter().map(|kind| is_computed(network, *kind)).collect()),
+            undecided: None,
             kinds,
+        }
+    }
+
+    /// Notes the first stay near a threshold that matters: see [`Stay::matters`].
+    pub(crate) fn judge(&mut self, stay: Stay, change: f64, stop: f64) {
+        let kind = self.kinds[stay.position];
+        if self.undecided.is_none() {
+            self.undecided = stay.matters(change, (stop, self.tolerance), kind);
         }
     }
 

@@ -58,6 +58,7 @@ impl Run<'_> {
         let work = self.recorder.at_state(at_the_end);
         let books = self.books.close(system, work, &integrals, (stored, (self.tolerance, grown)));
         let controls = self.switching.as_ref().map_or_else(Vec::new, Switching::controls);
+        let undecided = self.switching.as_ref().and_then(|switching| switching.undecided);
         let events = self.switching.map_or_else(Vec::new, |switching| switching.events);
         let stood = self.recorder.branch().to_vec();
         let end_state = State::of_carried(self.integrator.state().to_vec()).standing(stood);
@@ -73,6 +74,7 @@ impl Run<'_> {
             growth,
             made_up,
             unresolved,
+            undecided,
             certificate,
             ..solution
         }

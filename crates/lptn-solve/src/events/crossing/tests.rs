@@ -31,8 +31,9 @@ fn found<const N: usize>(
     let mut step = integrator.goes_to(8.0);
     step.roots = roots.is_some();
     integrator.directions = roots.map_or(vec![0; N], |roots| roots.to_vec());
-    let due = find(&mut integrator, &step);
-    let due = due.unwrap_or_else(|_| panic!("the step can be read"));
+    let found = find(&mut integrator, &step);
+    let found = found.unwrap_or_else(|_| panic!("the step can be read"));
+    let due = (found.due, found.time);
     (due, integrator.looks)
 }
 
