@@ -6,6 +6,7 @@ use lptn_study::{Candidate, CompareRow, Scatter};
 
 use super::margins::limits;
 use crate::input::Input;
+use crate::run::uncertainty::bends;
 use crate::words::spaced;
 
 /// Cell of a value that is not known or does not exist.
@@ -24,8 +25,12 @@ pub(super) fn look(input: &Input, found: &mut Candidate, file: &str) -> Option<D
     let parameters = netlist.overrides();
     match Scatter::of_run(&netlist.network, (&parameters, run), hottest) {
         Ok(scatter) => {
+            let bent = scatter.as_ref().map_or(&[][..], |scatter| &scatter.bent);
+            let rough = bends(&netlist.network, bent).map(|text| {
+                Diagnostic::warning("uncertainty::not_linear", format!("{file}: {text}"))
+            });
             found.scatter = scatter;
-            None
+            rough
         }
         Err(error) => warning(error.code(), &error.to_string()),
     }

@@ -4,7 +4,9 @@ use lptn_analysis::RunAnalysis;
 use lptn_network::{LimitId, Network, Parameters, RunSettings};
 use lptn_units::statistics::share_below;
 
-use crate::uncertainty::{Answer, AnswerOf, Inputs, UncertaintyError, UncertaintyTask, uncertain};
+use crate::uncertainty::{
+    Answer, AnswerOf, Bent, Inputs, UncertaintyError, UncertaintyMethod, UncertaintyTask, uncertain,
+};
 
 /// Effects of the `±` of parameters on the compared results of a candidate, by straight lines.
 #[derive(Clone, Debug)]
@@ -14,6 +16,8 @@ pub struct Scatter {
     /// For each limit of the network one standard deviation of its margin in SI units, and the
     /// probability that it is broken.
     pub limits: Vec<(f64, f64)>,
+    /// Results that straight lines get wrong.
+    pub bent: Vec<Bent>,
     /// The peak in K.
     value: f64,
     /// Change of the peak in K with one standard deviation of each parameter, by name.
@@ -62,6 +66,10 @@ impl Scatter {
         Ok(Some(Self {
             peak: peak.deviation.value,
             limits: network.limit_ids().map(limit).collect(),
+            bent: match &found.method {
+                UncertaintyMethod::Linear { bent, .. } => bent.clone(),
+                UncertaintyMethod::Sobol { .. } => Vec::new(),
+            },
             value: peak.value,
             effects: peak.ranking.iter().map(|part| (name(part.input), part.effect)).collect(),
             names: (0..inputs.len()).map(name).collect(),

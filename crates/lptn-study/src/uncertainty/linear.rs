@@ -1,8 +1,10 @@
 //! Straight lines from the exact sensitivities of one run.
 
+mod bent;
 mod line;
 mod margins;
 
+pub use bent::Bent;
 use lptn_assembly::ThermalSystem;
 use lptn_solve::Proceed;
 use lptn_units::statistics::{NORMAL_95, share_below};
@@ -22,7 +24,8 @@ impl UncertaintyTask<'_> {
     /// correlated, its band 1.96 standard deviations to each side of the value (ISO/IEC Guide 98-3,
     /// 5.1.2 and 5.2.2). A maximum changes as the temperature does at its time, a margin as it does
     /// when it is least: on its own side, if something jumps there. If a network has no exact
-    /// sensitivities, they are differences of runs, and the method reports it.
+    /// sensitivities, they are differences of runs, and the method reports it. Two runs for each
+    /// parameter find the results that straight lines get wrong.
     ///
     /// # Errors
     /// [`UncertaintyError`].
@@ -41,11 +44,14 @@ impl UncertaintyTask<'_> {
             };
             answer(of, value, (&effects, &inputs))
         };
+        let answers: Vec<Answer> =
+            self.questions().into_iter().zip(&sample.answers).map(answer).collect();
+        let bent = self.bent(&inputs, &answers);
         Ok(Uncertainty {
-            method: UncertaintyMethod::Linear { differences: line.differences() },
+            method: UncertaintyMethod::Linear { differences: line.differences(), bent },
             times: self.times()?,
             bands: self.nodes.iter().map(|&node| line.bands(node)).collect(),
-            answers: self.questions().into_iter().zip(&sample.answers).map(answer).collect(),
+            answers,
             inputs,
         })
     }

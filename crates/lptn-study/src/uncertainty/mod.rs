@@ -25,6 +25,7 @@ pub use difference::{Discrepancy, discrepancies};
 pub use error::UncertaintyError;
 pub use estimate::Estimate;
 pub use input::{Inputs, Uncertain, uncertain};
+pub use linear::Bent;
 pub use lost::Lost;
 pub use result::{Bands, Uncertainty, UncertaintyMethod};
 pub use sobol::{GROUPS, Sobol};

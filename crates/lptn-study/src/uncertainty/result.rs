@@ -4,6 +4,7 @@ use lptn_network::NodeId;
 
 use crate::uncertainty::answer::Answer;
 use crate::uncertainty::input::Inputs;
+use crate::uncertainty::linear::Bent;
 use crate::uncertainty::lost::Lost;
 
 /// The method by which the uncertainty of the results was found.
@@ -13,6 +14,8 @@ pub enum UncertaintyMethod {
     Linear {
         /// Why they are differences of runs, if they are not exact.
         differences: Option<String>,
+        /// The results that straight lines get wrong.
+        bent: Vec<Bent>,
     },
     /// From runs at scrambled Sobol points.
     Sobol {

@@ -87,7 +87,7 @@ fn method(found: &Uncertainty) -> Map<String, Value> {
     let mut members = Map::new();
     let count = |n: usize| json!({ "value": n, "unit": "1" });
     match &found.method {
-        UncertaintyMethod::Linear { differences } => {
+        UncertaintyMethod::Linear { differences, .. } => {
             members.insert("method".into(), json!("linear"));
             members.insert("exact".into(), json!(differences.is_none()));
         }

@@ -5,6 +5,8 @@ pub(super) mod files;
 mod inputs;
 pub(super) mod text;
 
+pub(crate) use text::bends;
+
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use lptn_analysis::RunAnalysis;

@@ -3,7 +3,7 @@
 use lptn_network::{Item, Network};
 use lptn_report::{Align, Column, Text, TextTable, WIDTH, decimals, duration, fixed, significant};
 use lptn_study::uncertainty::{
-    Answer, AnswerOf, Contribution, Discrepancy, Estimate, Uncertainty, UncertaintyMethod,
+    Answer, AnswerOf, Bent, Contribution, Discrepancy, Estimate, Uncertainty, UncertaintyMethod,
 };
 use lptn_units::Unit;
 
@@ -11,7 +11,7 @@ use super::Study;
 use super::files::{parameter, unit_of};
 use super::inputs;
 use crate::families::{self, Row};
-use crate::words::{MOST_NODES, count, difference};
+use crate::words::{MOST_NODES, count, difference, spaced};
 
 /// Parameters that a ranking names.
 const MOST_RANKED: usize = 12;
@@ -42,7 +42,7 @@ pub(crate) fn sections(
 fn heading(found: &Uncertainty) -> String {
     let parameters = inputs::counted(found);
     match &found.method {
-        UncertaintyMethod::Linear { differences } => {
+        UncertaintyMethod::Linear { differences, .. } => {
             let exact =
                 if differences.is_none() { "exact sensitivities" } else { "differences of runs" };
             format!("{parameters}, straight lines from {exact}")
@@ -302,11 +302,36 @@ fn wide<'a>(network: &'a Network, found: &'a Uncertainty) -> impl Iterator<Item 
     })
 }
 
+/// Results that straight lines get wrong: the worst, and how many others.
+pub(crate) fn bends(network: &Network, bent: &[Bent]) -> Option<String> {
+    let worst = bent.iter().max_by(|a, b| {
+        let ratio = |of: &Bent| (of.found - of.linear) / of.found;
+        ratio(a).total_cmp(&ratio(b))
+    })?;
+    let unit = spaced(&unit_of(network, worst.of));
+    let [found, linear] = [worst.found, worst.linear].map(|by| significant(by, 2));
+    let others = match bent.len() - 1 {
+        0 => String::new(),
+        1 => " (and one other result)".into(),
+        count => format!(" (and {count} other results)"),
+    };
+    let of = match worst.of {
+        AnswerOf::End(_) => "the end of",
+        AnswerOf::Max(_) => "the peak of",
+        AnswerOf::Margin(_) => "the margin of",
+    };
+    Some(format!(
+        "straight lines do not hold for {of} `{}`{others}: it changes by up to {found}{unit} within 95 % of \
+         the parameters, not by {linear}{unit}; use --uncertainty sobol",
+        name(network, worst.of)
+    ))
+}
+
 /// Notes on everything that the tables leave out.
 pub(crate) fn notes(network: &Network, study: &Study, unit: &Unit) -> Vec<String> {
     let found = &study.found;
     let lost = match &found.method {
-        UncertaintyMethod::Linear { differences } => {
+        UncertaintyMethod::Linear { differences, bent } => {
             let note = |why: &String| {
                 format!(
                     "no exact sensitivities, they are differences of runs: {why}; the further a \
@@ -316,7 +341,8 @@ pub(crate) fn notes(network: &Network, study: &Study, unit: &Unit) -> Vec<String
             };
             let more =
                 inputs::shares(found).into_iter().chain(inputs::far_from_normal(network, found));
-            return differences.iter().map(note).chain(wide(network, found)).chain(more).collect();
+            let rough = bends(network, bent).into_iter().chain(wide(network, found));
+            return differences.iter().map(note).chain(rough).chain(more).collect();
         }
         UncertaintyMethod::Sobol { lost, .. } => lost,
     };
