@@ -13,6 +13,7 @@ use lptn_report::{Json, Text, plain};
 use lptn_units::{Dimension, Problem, Quantity, Type, Unit, UnitError, parse_quantity};
 
 use crate::belief::Belief;
+use crate::example;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::messages;
@@ -131,7 +132,10 @@ fn no_case(netlist: &Netlist, text: &Given, name: &str) -> Failure {
     let message = format!("{} has no [case.{name}]", text.name);
     let problem = Diagnostic::error("input::no_case", message);
     let problem = match cases.is_empty() {
-        true => problem.help(format!("add for example:\n\n[case.{name}]\nset = {{ p = \"..\" }}")),
+        true => {
+            let set = example::set(netlist).unwrap_or_else(|| "p = \"..\"".to_owned());
+            problem.help(format!("add for example:\n\n[case.{name}]\nset = {{ {set} }}"))
+        }
         false => problem.did_you_mean(name, names(), || {
             let list: Vec<String> = names().map(|name| format!("`{name}`")).collect();
             format!("the cases are {}", list.join(", "))
@@ -348,7 +352,7 @@ fn checked(name: &str, unit: &Unit) -> Result<Unit, Failure> {
 }
 
 /// The scale that a unit is, by its usual name: `°C` is degC.
-fn scale(unit: &Unit) -> Option<Unit> {
+pub(crate) fn scale(unit: &Unit) -> Option<Unit> {
     let same = |known: &Unit| {
         known.ty.dimension == unit.ty.dimension
             && known.scale.to_bits() == unit.scale.to_bits()

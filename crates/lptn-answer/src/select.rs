@@ -20,6 +20,14 @@ pub fn of_option(netlist: &Netlist, option: &[String]) -> Result<Selection, Fail
     chosen(netlist, option, false)
 }
 
+/// For each pattern, true if it matches a column of a run.
+pub fn matching(netlist: &Netlist, patterns: &[String]) -> Vec<bool> {
+    let found = |pattern: &String| {
+        Selection::matching(&netlist.network, std::slice::from_ref(pattern)).is_ok()
+    };
+    patterns.iter().map(found).collect()
+}
+
 fn chosen(netlist: &Netlist, patterns: &[String], in_file: bool) -> Result<Selection, Failure> {
     if patterns.is_empty() {
         // a million columns are of no use to anyone

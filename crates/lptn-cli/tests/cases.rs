@@ -148,3 +148,14 @@ fn of_results_that_are_sought_the_worst_case_counts() {
     assert!((value(&json["objective"]["value"]) - least).abs() < 1e-8 * least, "{json}");
     assert!((value(&json["values"]["G"]) / f64::sqrt(50.0) - 1.0).abs() < 1e-4, "{json}");
 }
+
+#[test]
+fn a_case_that_a_file_without_cases_lacks_is_shown_with_its_parameters() {
+    let folder = Folder::with_gearbox();
+    let ran = folder.run(&["run", "gearbox.toml", "--case", "hot"]).exits(2);
+    let (_, pasted) = ran.err.split_once("[case.hot]\n").unwrap();
+    let line = pasted.lines().find(|line| line.contains("set = ")).unwrap().trim().to_owned();
+    let text = folder.read("gearbox.toml");
+    folder.write("hot.toml", &format!("{text}\n[case.hot]\n{line}\n"));
+    folder.run(&["run", "hot.toml", "--case", "hot", "--no-files"]).exits(0);
+}

@@ -398,3 +398,31 @@ fn a_fitted_temperature_is_in_the_unit_of_the_text() {
     assert!(low <= 25.51 && 25.49 <= high && high - low < 1.0, "{low} to {high} degC");
     assert_eq!(json["shared_noise"], serde_json::json!([]));
 }
+
+/// A body of 2000 J/K, 100 W and 2 W/K rises by 50 (1 - exp(-t / 1000 s)) K; its sensor reads 2.5 K
+/// more. The help of the misfit is pasted, and the fit finds them.
+#[test]
+fn the_sensor_of_a_misfit_can_be_pasted() {
+    let text = "format = 1\n[param]\nG = '3 W/K'\n[node]\nbody = { C = '2 kJ/K', T0 = '22 degC' \
+                }\n[boundary]\nair = { T = '22 degC' }\n[resistor]\nskin = { from = 'body', to = \
+                'air', G = 'G' }\n[source]\nheat = { into = 'body', P = '100 W' }\n[run]\nstop = \
+                '1 h'\n[fit.warm]\ndata = 'tc.csv'\ncolumn = { tc = 'body.T' }\nsigma = '0.1 \
+                K'\nvary = ['G']\n";
+    let folder = Folder::with("x.toml", text);
+    let mut record = "t [s],tc [degC]\n".to_owned();
+    for i in 0..300_i32 {
+        let time = 12.0 * f64::from(i);
+        let noise = if i % 2 == 0 { 0.05 } else { -0.05 };
+        record += &format!("{time},{}\n", 74.5 - 50.0 * (-time / 1000.0).exp() + noise);
+    }
+    folder.write("tc.csv", &record);
+    let ran = folder.run(&["fit", "network", "x.toml", "--no-files"]);
+    let help = ran.err.split_once("does the sensor have an offset of 2.5 K?").unwrap().1.to_owned();
+    let column = help.split('`').nth(1).unwrap().replace(['\n'], " ");
+    let from = help.find("[sensor.tc]").unwrap();
+    let sensor: Vec<&str> = help[from..].lines().take(2).map(str::trim).collect();
+    let pasted = text.replace("column = { tc = 'body.T' }", &column);
+    folder.write("y.toml", &format!("{pasted}{}\n", sensor.join("\n")));
+    let ran = folder.run(&["fit", "network", "y.toml", "--no-files"]);
+    assert!(!ran.err.contains("fit::misfit") && ran.out.contains("tc.offset  2."), "{}", ran.out);
+}

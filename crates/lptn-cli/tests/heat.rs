@@ -172,6 +172,10 @@ fn kelvin_set_for_an_absolute_temperature_is_refused_as_in_the_file() {
         .says(
             "`--set \"T_room=25 degC\"`, or `--set \"T_room=absolute(25 [K])\"` if kelvin is meant",
         );
+    // 30 degC is likelier than 303 degC
+    block(&["run", "x.toml", "--no-files", "--set", "T_room=303K"]).exits(2).says(
+        "write `--set \"T_room=absolute(303 [K])\"`, or `--set \"T_room=303 degC\"` if degrees",
+    );
     let ran = block(&["steady", "x.toml", "--format", "csv", "--set", "T_room=absolute(300 [K])"])
         .exits(0);
     assert!(ran.out.contains("26.85"), "{}", ran.out);
@@ -200,7 +204,10 @@ fn other_values_of_a_parameter_follow_the_rule_too() {
         degC\" } }\n\
         require = [\"block.T < 90 [degC]\"]\n";
     let folder = Folder::with("x.toml", &format!("{BLOCK}{size}"));
-    folder.run(&["check", "x.toml"]).exits(1).prints("\"absolute(280 [K])\"` if kelvin is meant");
+    folder
+        .run(&["check", "x.toml"])
+        .exits(1)
+        .prints("`from = \"absolute(280 [K])\"`, or `from = \"280 degC\"` if degrees Celsius are");
     let template = "format = 1\n[template.part]\nparam = { T_air = \"25 degC\" \
         }\n[template.part.node]\n\
         a = { C = \"10 J/K\", T0 = \"20 degC\" }\n[template.part.boundary]\nair = { T = \"T_air\" \

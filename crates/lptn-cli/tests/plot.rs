@@ -94,6 +94,61 @@ fn what_was_measured_stands_over_the_run_and_the_difference_below() {
     assert!(left.iter().all(|(_, kelvin)| (kelvin - 0.5).abs() < 5e-4), "{left:?}");
 }
 
+/// The same record in other units: 273.15 K is 0 degC is 32 degF.
+#[test]
+fn a_record_in_any_unit_of_temperature_lies_over_the_run() {
+    let folder = Folder::with("lump.toml", LUMP);
+    let same = |celsius: f64| celsius;
+    let units: [(&str, fn(f64) -> f64); 4] = [
+        ("\u{b0}C", same),
+        ("\u{2103}", same),
+        ("K", |celsius| celsius + 273.15),
+        ("degF", |celsius| 1.8 * celsius + 32.0),
+    ];
+    for (unit, written) in units {
+        let mut record = format!("time [s],lump [{unit}]\n");
+        for i in 0..30 {
+            let time = 10.0 * f64::from(i);
+            record += &format!("{time},{}\n", written(25.5 + rise(time)));
+        }
+        folder.write("measured.csv", &record);
+        let arguments = ["plot", "lump.toml", "measured.csv", "--select", "lump.T"];
+        folder.run(&[&arguments[..], &["-o", "both.svg"]].concat()).exits(0);
+        let picture = Picture::read(&folder.read("both.svg"));
+        let left = picture.dots("measured \u{2212} run [K]", "series0");
+        assert_eq!((left.len(), picture.dots(TEMPERATURE, "series0").len()), (30, 30), "{unit}");
+        assert!(left.iter().all(|(_, kelvin)| (kelvin - 0.5).abs() < 5e-4), "{unit}: {left:?}");
+    }
+}
+
+/// No pattern could satisfy a run and a record of other names.
+#[test]
+fn a_pattern_has_to_match_in_one_of_the_files() {
+    let folder = Folder::with("lump.toml", LUMP);
+    folder.write("measured.csv", "t [s],ring [degC],lid [degC]\n0,30,31\n300,40,41\n");
+    let both = ["plot", "lump.toml", "measured.csv", "-o", "both.svg", "--select", "lump.T"];
+    folder.run(&[&both[..], &["--select", "ring"]].concat()).exits(0);
+    let picture = Picture::read(&folder.read("both.svg"));
+    picture.says("ring");
+    assert!(!folder.read("both.svg").contains("lid"));
+    folder.run(&[&both[..], &["--select", "lamp.T"]].concat()).exits(2).says("matches `lamp.T`");
+    folder.run(&both).exits(2).says("no column of measured.csv is selected").says("ring, lid");
+}
+
+#[test]
+fn a_record_without_a_known_unit_says_so() {
+    let folder = Folder::with("tc.csv", "Zeit [min];T [Grad C]\n0;20,00\n1;21,50\n");
+    folder
+        .run(&["plot", "tc.csv"])
+        .exits(2)
+        .says("`T [Grad C]`, whose units are unknown")
+        .says("tc.csv has no column of numbers with a unit beside its times")
+        .says("--unit T=degC");
+    folder.run(&["plot", "tc.csv", "--unit", "T=degC"]).exits(0);
+    folder.write("gap.csv", "t [s],a [mm],b [mm]\n0,1,2\n60,2,3\n");
+    folder.run(&["plot", "gap.csv"]).exits(0).prints("\n[mm] over time");
+}
+
 #[test]
 fn results_are_drawn_as_the_run_that_wrote_them() {
     let folder = Folder::with("lump.toml", LUMP);

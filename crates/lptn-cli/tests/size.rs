@@ -237,3 +237,15 @@ fn a_number_of_an_included_file_is_not_written() {
     );
     folder.run(&["size", "fan.toml", "--write"]).exits(0).says("wrote  fan.toml");
 }
+
+/// The lump is at 25 + 100 W / G, so that it keeps 50 degC from 4 W/K on.
+#[test]
+fn less_of_a_maximum_is_not_always_better() {
+    let text = "format = 1\n[param]\nG = '5 W/K'\n[node]\nlump = { C = '1 kJ/K', T0 = '25 \
+                degC' }\n[boundary]\nair = { T = '25 degC' }\n[resistor]\nskin = { from = \
+                'lump', to = 'air', G = 'G' }\n[source]\nheat = { into = 'lump', P = '100 W' \
+                }\n[size.s]\nmaximise = 'G'\nvary = { G = { from = '1 W/K', to = '20 W/K' } \
+                }\nrequire = ['lump.T <= 50 [degC]']\n";
+    let folder = Folder::with("x.toml", text);
+    folder.run(&["size", "x.toml"]).exits(0).prints("less is not always better: below G = 4 W/K");
+}

@@ -44,7 +44,7 @@ impl Head {
                      `{option}`)"
                 )
             }
-            Some(_) => help,
+            Some(_) => format!("{help} (a command: `{option}`)"),
             None => format!("{help}; a plain number is `{name} [-]`"),
         })
     }

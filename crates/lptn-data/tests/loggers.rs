@@ -59,7 +59,7 @@ fn toa5_of_campbell_scientific() {
     assert_eq!(
         note(&record),
         "toa5.dat is read with one line above the header left out, units in a separate line, 0 \
-         s at 2026-05-03 23:59:59.8, without the columns `RECORD`, which have no unit"
+         s at 2026-05-03 23:59:59.8, without the columns `RECORD [RN]`, whose units are unknown"
     );
 }
 

@@ -246,7 +246,9 @@ fn not_a_table(section: &SectionDeclaration, owner: &Owner, entry: &RawEntry) ->
     if matches!(entry.value.kind, RawKind::Array(_)) {
         return error.help("write the heading with single brackets: each element has its own name");
     }
-    error.help(format!("write it like this: `{} = {}`", entry.key, section.example))
+    let own = section.holding(&entry.value.kind);
+    let right = own.unwrap_or_else(|| section.example.to_owned());
+    error.help(format!("write it like this: `{} = {right}`", entry.key))
 }
 
 /// An element below the heading of another one.
@@ -280,5 +282,15 @@ pub(crate) fn unknown(section: &SectionDeclaration, owner: &Owner, field: &RawEn
     }
     Diagnostic::error("netlist::unknown_key", format!("{} has no field `{key}`", owner.words()))
         .at(field.key_span.clone(), "unknown key")
-        .help(section.help_for(key))
+        .help(with_value(section.help_for(key), &field.value))
+}
+
+/// Help with the value of the user in the place of `{value}`.
+fn with_value(help: String, value: &RawValue) -> String {
+    let written = value.kind.written().unwrap_or_else(|| "\"..\"".to_owned());
+    match &value.kind {
+        RawKind::Array(_) => help.replace("[{value}]", &written),
+        _ => help,
+    }
+    .replace("{value}", &written)
 }

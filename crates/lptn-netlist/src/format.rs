@@ -3,7 +3,10 @@
 //! the page of all keys follow from them.
 
 use lptn_data::nearest;
-use lptn_units::{Type, Unit};
+use lptn_units::{Type, Unit, parse_quantity};
+
+use crate::raw::RawKind;
+use crate::toml_text::string;
 
 /// The role of a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,6 +73,34 @@ impl SectionDeclaration {
     /// A key as it could be written.
     pub(crate) fn sample(&self, key: &str) -> String {
         format!("{key} = {}", self.key(key).map_or("\"..\"", |key| key.example))
+    }
+
+    /// The example with this value in the one key of its quantity, and without keys that have
+    /// defaults. `None` if no key or several could take the value.
+    pub(crate) fn holding(&self, value: &RawKind) -> Option<String> {
+        let (text, bare) = match value {
+            RawKind::String { text, .. } => (text.as_str(), false),
+            RawKind::Integer(text) | RawKind::Float(text) => (text.as_str(), true),
+            _ => return None,
+        };
+        let found = parse_quantity(text, None).ok().map(|quantity| quantity.ty.dimension);
+        let shown = |key: &KeyDeclaration| self.example.contains(&format!(" {} = ", key.name));
+        let takes = |key: &KeyDeclaration| match (unit_of(key.takes), found) {
+            (Some(unit), Some(found)) if !bare => {
+                Unit::parse(unit).is_ok_and(|unit| unit.ty.dimension == found)
+            }
+            (Some(_), _) => shown(key) && key.default.is_empty(),
+            (None, _) => false,
+        };
+        let mut fitting = self.keys.iter().filter(|key| takes(key));
+        let (Some(key), None) = (fitting.next(), fitting.next()) else { return None };
+        let own = if bare { format!("{text} {}", unit_of(key.takes)?) } else { text.to_owned() };
+        let others = self.keys.iter().filter(|other| other.default.is_empty() && shown(other));
+        let others = others.filter(|other| other.name != key.name);
+        let first = [format!("{} = {}", key.name, string(&own))];
+        let all: Vec<String> =
+            first.into_iter().chain(others.map(|other| self.sample(other.name))).collect();
+        Some(format!("{{ {} }}", all.join(", ")))
     }
 
     /// The names of its keys.
@@ -247,6 +278,15 @@ impl KeyDeclaration {
 
 /// The unit of a key that takes an absolute temperature.
 pub(crate) const ABSOLUTE: &str = "absolute temperature";
+
+/// The usual unit of the values of a key.
+fn unit_of(takes: Takes) -> Option<&'static str> {
+    match takes {
+        Takes::Quantity(ABSOLUTE) => Some("degC"),
+        Takes::Quantity(unit) | Takes::Property(unit) => Some(unit),
+        _ => None,
+    }
+}
 
 /// All sections, in the order in which messages list them.
 #[derive(Debug)]

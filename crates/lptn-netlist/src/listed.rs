@@ -5,12 +5,18 @@
 
 use lptn_data::Span;
 use lptn_network::{Context, Value};
-use lptn_units::{Scope as _, Type};
+use lptn_units::{Scope as _, Type, Unit, format_number};
 
 use crate::fields::Fields;
 use crate::place::Wanted;
-use crate::raw::{RawEntry, RawKind};
+use crate::raw::{RawEntry, RawKind, RawValue};
+use crate::value_help::number_and_unit;
 use crate::work::Elaboration;
+
+/// Factors from the value of a parameter to the ends of a range in help, and the range of a
+/// temperature to both sides in K.
+const FACTORS: [f64; 2] = [0.1, 10.0];
+const AROUND: f64 = 20.0;
 
 /// A name that a key lists.
 #[derive(Clone, Copy)]
@@ -64,8 +70,34 @@ impl<'a> Elaboration<'a> {
             (RawKind::Table(_), Names::Table(_, empty)) => empty,
             _ => wanted,
         };
-        self.report(fields.wrong_shape(key, raw, wanted));
+        let problem = fields.wrong_shape(key, raw, wanted);
+        let ranges = match &raw.kind {
+            RawKind::Array(list) if fields.sample(key).contains("from = ") => self.ranges(list),
+            _ => None,
+        };
+        self.report(match ranges {
+            Some(ranges) => problem.help(format!("write it like this: `{key} = {ranges}`")),
+            None => problem,
+        });
         None
+    }
+
+    /// Ranges around the values of parameters that a list names.
+    fn ranges(&self, list: &[RawValue]) -> Option<String> {
+        let range = |named: &RawValue| {
+            let RawKind::String { text: name, .. } = &named.kind else { return None };
+            let entry = self.raw.section("param")?.get(name)?;
+            let RawKind::String { text, .. } = &entry.value.kind else { return None };
+            let (number, unit) = number_and_unit(text)?;
+            let [from, to] = match Unit::parse(unit).is_ok_and(|unit| unit.ty.absolute) {
+                true => [number - AROUND, number + AROUND],
+                false => FACTORS.map(|factor| number * factor),
+            };
+            let [from, to] = [from, to].map(|end| format!("\"{} {unit}\"", format_number(end)));
+            Some(format!("{name} = {{ from = {from}, to = {to} }}"))
+        };
+        let all: Option<Vec<String>> = list.iter().map(range).collect();
+        all.filter(|all| !all.is_empty()).map(|all| format!("{{ {} }}", all.join(", ")))
     }
 
     /// The same for a key that may be left out, or has at least one name.

@@ -185,7 +185,9 @@ impl Place<'_> {
         let diagnostic = Diagnostic::error(error.code(), format!("{words}{says}"));
         let place = match error.kind {
             // the value as a whole is the mistake
-            UnitErrorKind::BareNumber { .. } => self.raw.span.clone(),
+            UnitErrorKind::BareNumber { .. } if self.fragment(error).is_none() => {
+                self.raw.span.clone()
+            }
             _ => self.raw.part(&error.span),
         };
         let diagnostic = diagnostic.at(place, "");

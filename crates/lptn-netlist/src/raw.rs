@@ -3,6 +3,8 @@
 use lptn_data::{Span, on_borders};
 use serde_json::Value;
 
+use crate::toml_text::string;
+
 /// The sections and keys of one file, in file order. Strings are untouched, numbers are the text of
 /// the file.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,6 +123,20 @@ pub enum RawKind {
 }
 
 impl RawKind {
+    /// Its text in TOML; `None` for a table or a date.
+    pub(crate) fn written(&self) -> Option<String> {
+        match self {
+            Self::String { text, .. } => Some(string(text)),
+            Self::Integer(text) | Self::Float(text) => Some(text.clone()),
+            Self::Boolean(answer) => Some(answer.to_string()),
+            Self::Array(list) => {
+                let all: Option<Vec<_>> = list.iter().map(|one| one.kind.written()).collect();
+                Some(format!("[{}]", all?.join(", ")))
+            }
+            Self::Datetime | Self::Table(_) => None,
+        }
+    }
+
     /// Its kind, with the article that a sentence needs.
     pub(crate) fn with_article(&self) -> &'static str {
         match self {

@@ -4,6 +4,7 @@
 
 use lptn_data::{Diagnostic, Span};
 use lptn_laws::{Formula, Kind};
+use lptn_network::is_name;
 use lptn_units::suggest;
 
 use crate::grid_names::VALUES;
@@ -69,12 +70,26 @@ impl Names {
             }
             None => match self.similar_result(name) {
                 Some(near) => error.help(format!("did you mean `{near}`?")),
-                None => error.help(
-                    "name a temperature such as `steel.T`, a heat flow such as `cooling.Q`, a \
-                     parameter or `t`",
-                ),
+                None => error.help(self.some_results()),
             },
         }
+    }
+
+    /// Help with a temperature and a heat flow of the netlist, the first in the alphabet.
+    fn some_results(&self) -> String {
+        let first = |ends: &[&str]| {
+            // the nodes and paths before the boundaries
+            let of = |(name, kind): (&String, &&'static str)| {
+                let last = *kind == "boundary";
+                results_of(kind, name).into_iter().map(move |result| (last, result))
+            };
+            let usable = |(name, _): &(&String, _)| name.split('.').all(is_name);
+            let all = self.elements.iter().filter(usable).flat_map(of);
+            let all = all.filter(|(_, name)| ends.iter().any(|end| name.ends_with(end)));
+            all.min().map(|(_, name)| format!(" such as `{name}`")).unwrap_or_default()
+        };
+        let (temperature, heat) = (first(&[".T"]), first(&[".Q", ".P"]));
+        format!("name a temperature{temperature}, a heat flow{heat}, a parameter or `t`")
     }
 
     /// The most similar parameter, temperature or heat flow; in a tie, the first in the alphabet.

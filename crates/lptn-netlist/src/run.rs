@@ -72,8 +72,9 @@ pub(crate) const RUN: SectionDeclaration = SectionDeclaration {
     elsewhere: &[
         ("end", "the end of a run is `stop`"),
         ("duration", "the end of a run is `stop`"),
-        ("every", "write `output = { every = \"5 s\" }`"),
-        ("at", "write `output = { at = [\"5 s\"] }`"),
+        ("every", "write `output = { every = {value} }`"),
+        ("step", "write `output = { every = {value} }`; the solver chooses its own steps"),
+        ("at", "write `output = { at = [{value}] }`"),
     ],
     ..SectionDeclaration::NEW
 };

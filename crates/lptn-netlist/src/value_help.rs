@@ -1,6 +1,6 @@
 //! Help for a value that its place cannot take.
 
-use lptn_units::{Dimension, Type, parse_quantity};
+use lptn_units::{Dimension, Type, Unit, parse_quantity};
 
 use crate::raw::{RawEntry, RawKind};
 
@@ -26,8 +26,19 @@ pub(crate) fn parameter_help(entry: &RawEntry, ty: Type) -> Option<String> {
     None
 }
 
+/// The number and the unit of a text like `15 W/(m^2 K)`.
+pub(crate) fn number_and_unit(text: &str) -> Option<(f64, &str)> {
+    let text = text.trim();
+    let unit = text.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+    let number = text.strip_suffix(unit)?.parse().ok()?;
+    Unit::parse(unit.trim()).is_ok().then_some((number, unit.trim()))
+}
+
+/// The least number, in K, that is more likely a temperature in K than in degC.
+const WARM: f64 = 200.0;
+
 /// Help for a number of kelvin that is meant as an absolute temperature. `line` writes it,
-/// `where_to` adds its place.
+/// `where_to` adds its place. The likelier reading comes first.
 pub(crate) fn celsius_or_kelvin(
     text: &str,
     line: impl Fn(&str) -> String,
@@ -37,5 +48,9 @@ pub(crate) fn celsius_or_kelvin(
     let ends_in_digit = number.ends_with(|c: char| c.is_ascii_digit() || c == '.');
     let (celsius, kelvin) =
         (line(&format!("{number} degC")), line(&format!("absolute({number} [K])")));
-    ends_in_digit.then(|| format!("write {celsius}{where_to}, or {kelvin} if kelvin is meant"))
+    let warm = number.parse::<f64>().is_ok_and(|number| number > WARM);
+    ends_in_digit.then(|| match warm {
+        true => format!("write {kelvin}{where_to}, or {celsius} if degrees Celsius are meant"),
+        false => format!("write {celsius}{where_to}, or {kelvin} if kelvin is meant"),
+    })
 }

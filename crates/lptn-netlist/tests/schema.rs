@@ -130,6 +130,7 @@ const REFUSED: [(&str, usize, &[&str]); 9] = [
 /// A key is needed beside another one, or what it names has no such property.
 const NEEDED_BESIDE: &[&str] = &[
     "control_half_a_pair",
+    "control_half_of_its_own",
     "correlation_fluid",
     "csv_keys_mixed",
     "infer_half",

@@ -197,6 +197,7 @@ fn named(axis: &Axis, names: &[String]) -> Ruler {
 fn title(name: &str, unit: &str) -> String {
     match unit {
         "" | "1" | "-" => name.into(),
+        unit if name.is_empty() => format!("[{}]", printed(unit)),
         unit => format!("{name} [{}]", printed(unit)),
     }
 }

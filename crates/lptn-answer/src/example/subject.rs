@@ -154,7 +154,7 @@ fn rounded(temperature: f64) -> f64 {
 }
 
 /// A value with its unit, as short as it can be.
-fn with_unit(unit: &Unit, value: f64) -> String {
+pub(super) fn with_unit(unit: &Unit, value: f64) -> String {
     let number = significant(unit.from_si(value), 3);
     if unit.text == "1" { number } else { format!("{number} {}", unit.text) }
 }

@@ -2,7 +2,8 @@
 
 use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Panel};
-use lptn_report::plain;
+use lptn_report::{TEMPERATURE, plain};
+use lptn_units::Unit;
 
 use super::source::Source;
 
@@ -14,7 +15,7 @@ const RESIDUALS: f64 = 0.4;
 pub fn overlay(sources: Vec<Source>) -> Figure {
     let runs = sources.iter().filter(|source| !source.measured).count();
     let several = sources.len() > 1;
-    let sources = named_apart(sources);
+    let sources = in_one_scale(named_apart(sources));
     let mut whole = Figure::default();
     let mut titles: Vec<&str> = sources.iter().map(|source| source.figure.title.as_str()).collect();
     titles.dedup();
@@ -52,6 +53,37 @@ fn named_apart(mut sources: Vec<Source>) -> Vec<Source> {
         }
     }
     sources
+}
+
+/// Gives all temperatures the unit of the first run or, if there is none, of the first record.
+fn in_one_scale(mut sources: Vec<Source>) -> Vec<Source> {
+    let first = |measured: bool| {
+        let of = sources.iter().filter(move |source| source.measured == measured);
+        let mut panels = of.flat_map(|source| &source.figure.panels);
+        panels.find(|panel| panel.y.name == TEMPERATURE).map(|panel| panel.y.unit.clone())
+    };
+    let unit = first(false).or_else(|| first(true)).and_then(|unit| Unit::parse(&unit).ok());
+    let Some(unit) = unit else { return sources };
+    let panels = sources.iter_mut().flat_map(|source| &mut source.figure.panels);
+    for panel in panels.filter(|panel| panel.y.name == TEMPERATURE && panel.y.unit != unit.text) {
+        if let Ok(own) = Unit::parse(&panel.y.unit) {
+            convert(panel, &own, &unit);
+        }
+    }
+    sources
+}
+
+fn convert(panel: &mut Panel, from: &Unit, to: &Unit) {
+    let of = |value: &mut f64| *value = to.from_si(from.to_si(*value));
+    for curve in &mut panel.curves {
+        curve.points.iter_mut().for_each(|point| of(&mut point.1));
+        curve.spread.iter_mut().for_each(|(low, high)| {
+            of(low);
+            of(high);
+        });
+    }
+    panel.limits.iter_mut().for_each(|limit| of(&mut limit.value));
+    panel.y.unit.clone_from(&to.text);
 }
 
 /// Puts the name of the source before those of the curves.
@@ -151,7 +183,7 @@ fn at(points: &[(f64, f64)], x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use lptn_plot::Figure;
-    use lptn_plot::figure::{Axis, Curve, Look, Panel};
+    use lptn_plot::figure::{Axis, Curve, Level, Look, Panel};
 
     use super::{Source, at, overlay};
 
@@ -185,6 +217,27 @@ mod tests {
         assert_eq!(upper, [("steel", None), ("steel", Some(0))]);
         assert_eq!(whole.panels[1].y.unit, "K");
         assert_eq!(whole.panels[1].curves[0].points, [(5.0, 3.0)]);
+    }
+
+    /// 68 degF is 20 degC, 86 degF is 30 degC; 303.15 K is 30 degC.
+    #[test]
+    fn a_temperature_of_any_unit_is_one_quantity() {
+        let in_unit = |mut source: Source, unit: &str| {
+            source.figure.panels[0].y.unit = unit.into();
+            source.figure.panels[0].limits = vec![Level { name: "l".into(), value: 303.15 }];
+            source
+        };
+        let run = source("m", false, Curve::line("a", vec![(0.0, 68.0), (10.0, 86.0)]));
+        let record = source("tc", true, Curve::line("a", vec![(5.0, 303.15)]));
+        let whole = overlay(vec![in_unit(record, "K"), in_unit(run, "degF")]);
+        assert_eq!(whole.panels.len(), 2);
+        let upper = &whole.panels[0];
+        assert_eq!(upper.y.unit, "degF");
+        assert!((upper.curves[1].points[0].1 - 86.0).abs() < 1e-9);
+        assert!((upper.limits[1].value - 86.0).abs() < 1e-9, "{:?}", upper.limits);
+        // 77 degF is in the middle of the run
+        let residual = whole.panels[1].curves[0].points[0].1;
+        assert!((residual - 9.0).abs() < 1e-9, "{residual}");
     }
 
     #[test]

@@ -9,8 +9,10 @@ use lptn_report::{panels, proven_caption};
 use lptn_solve::{Table, name_matches};
 use lptn_units::Unit;
 
+use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::input::{self, RESULT, quoted};
+use crate::fit::step::units_missing;
+use crate::input::{self, Given, RESULT, quoted};
 use crate::run::{RunAnswer, figure};
 
 /// The files of events and of the manifest among the results of a run.
@@ -150,46 +152,94 @@ impl Columns {
         let scale = scale.map(|scale| input::scale_of("--temperature-unit", scale)).transpose()?;
         let text = input::read(path)?;
         let of_run = path.file_name().is_some_and(|name| name == RESULT);
-        let query = RecordQuery { of_run, csv: self.csv.clone(), ..RecordQuery::default() };
-        let (record, files) = read_record(Path::new(&text.name), &text.bytes, &query)?;
+        let (record, files) = self.read(&text, of_run)?;
         let wanted = |column: &&RecordColumn| {
-            self.select.is_empty()
-                || self.select.iter().any(|pattern| {
-                    // a column comes with its proven errors
-                    let name = column.name.strip_suffix(".bound").unwrap_or(&column.name);
-                    name_matches(pattern, &column.name) || name_matches(pattern, name)
-                })
+            self.select.is_empty() || self.select.iter().any(|pattern| fits(pattern, column))
         };
         let chosen: Vec<&RecordColumn> = record.columns.iter().filter(wanted).collect();
         if chosen.is_empty() {
-            return Err(no_column(&text.name, &record));
+            return Err(no_column(&text.name, record, files));
         }
         let rows: Vec<usize> = (0..record.time.len()).collect();
         let mut table = Table::of(&rows);
         table.column("time", "s", |row| record.time[*row]);
         for column in chosen {
-            let is_point = column.unit.ty.absolute && !column.name.ends_with(".bound");
-            let scale = scale.as_ref().filter(|_| is_point);
-            let unit = scale.unwrap_or(&column.unit);
-            table.column(&column.name, &unit.text, |row| shown(column.values[*row], unit));
+            let asked = scale.as_ref().filter(|_| is_point(column)).cloned();
+            // a header in `°C` and a run in `degC` have one scale
+            let usual = || is_point(column).then(|| input::scale(&column.unit)).flatten();
+            let unit = &asked.or_else(usual).unwrap_or_else(|| column.unit.clone());
+            table.column(name_of(column, unit), &unit.text, |row| shown(column.values[*row], unit));
         }
         // our own results need no doubts
         let doubts = if of_run { Vec::new() } else { record.warnings };
         Ok((table.done(), (files, doubts)))
     }
+
+    fn read(&self, text: &Given, of_run: bool) -> Result<(Record, Files), Failure> {
+        let query = RecordQuery { of_run, csv: self.csv.clone(), ..RecordQuery::default() };
+        Ok(read_record(Path::new(&text.name), &text.bytes, &query)?)
+    }
+
+    /// For each pattern, true if it matches a column of a record or of the results in a folder.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn matching(&self, path: &Path) -> Result<Vec<bool>, Failure> {
+        let of_run = path.is_dir();
+        let file = if of_run { path.join(RESULT) } else { path.to_owned() };
+        if of_run && !file.is_file() {
+            return Err(no_result(path));
+        }
+        let (record, _) = self.read(&input::read(&file)?, of_run)?;
+        let found = |pattern: &String| record.columns.iter().any(|column| fits(pattern, column));
+        Ok(self.select.iter().map(found).collect())
+    }
+}
+
+/// True for a point on the temperature scale. Proven errors are differences.
+fn is_point(column: &RecordColumn) -> bool {
+    column.unit.ty.absolute && !column.name.ends_with(".bound")
+}
+
+/// The name of a column in a table. `K` alone is a difference there, except in those of a node.
+fn name_of(column: &RecordColumn, unit: &Unit) -> String {
+    let name = &column.name;
+    let bare = is_point(column) && unit.text == "K" && !name.ends_with(".T");
+    if bare { format!("{name}.T") } else { name.clone() }
+}
+
+/// True if a pattern matches a column. A measured `ring` is the `ring.T` of a run, and a column
+/// comes with its proven errors.
+fn fits(pattern: &str, column: &RecordColumn) -> bool {
+    let name = column.name.strip_suffix(".bound").unwrap_or(&column.name);
+    name_matches(pattern, &column.name)
+        || name_matches(pattern, name)
+        || (is_point(column) && name_matches(pattern, &format!("{name}.T")))
 }
 
 fn shown(value: f64, unit: &Unit) -> f64 {
     if value.is_finite() { unit.from_si(value) } else { f64::NAN }
 }
 
-fn no_column(name: &str, record: &Record) -> Failure {
+fn no_column(name: &str, record: Record, files: Files) -> Failure {
     let names: Vec<&str> = record.columns.iter().map(|column| column.name.as_str()).collect();
-    Failure::refused(
-        "select::no_match",
-        format!("no column of {name} is selected"),
-        format!("it has {}", names.join(", ")),
-    )
+    if !names.is_empty() {
+        let message = format!("no column of {name} is selected");
+        return Failure::refused(
+            "select::no_match",
+            message,
+            format!("it has {}", names.join(", ")),
+        );
+    }
+    let message = format!("{name} has no column of numbers with a unit beside its times");
+    let problem = Diagnostic::error("select::no_match", message);
+    let problem = problem.help(match units_missing(&record) {
+        Some(help) => help,
+        None => "give each column its unit in the header: `ring [degC]`".to_owned(),
+    });
+    // the note on the form of the file names the columns without a unit
+    let diagnostics = record.warnings.into_iter().chain([problem]).collect();
+    Failure { exit: Exit::Input, files, diagnostics }
 }
 
 /// The events that a run has written; a picture does not depend on them.

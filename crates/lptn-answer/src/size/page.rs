@@ -231,11 +231,12 @@ fn notes(answer: &Sized) -> Vec<(&'static str, String)> {
     let solved = solved(study.over);
     notes.push(("proof", format!("{} {solved} of the full network", sizing.solved)));
     if let Some(value) = sizing.breaks_again {
-        let side = if study.goal == Goal::Minimise { "above" } else { "below" };
+        let least = study.goal == Goal::Minimise;
+        let [way, side] = if least { ["more", "above"] } else { ["less", "below"] };
         let value = quantity(name, value, &answer.unit);
         notes.push((
             "note",
-            format!("more is not always better: {side} {value} a requirement breaks again"),
+            format!("{way} is not always better: {side} {value} a requirement breaks again"),
         ));
     }
     notes

@@ -31,12 +31,16 @@ pub(crate) fn choose(
     let nothing = csv::StringRecord::new();
     let cells = first.filter(|_| extent == Extent::Whole).unwrap_or(&nothing);
     let mut time = time((head, text), cells, query);
+    // a column of times with a wrong unit is reported once
+    let position = match &time {
+        Ok((time, _)) => Some(time.index),
+        Err(_) => wrong_time(head, query),
+    };
     if let Ok((column, None)) = &time
         && let Some(problem) = Clock::unused(head, column.index, &query.csv)
     {
         time = Err(problem);
     }
-    let position = time.as_ref().map(|(time, _)| time.index).ok();
     let clock = time.as_ref().ok().and_then(|(_, clock)| clock.as_ref());
     let logged = clock.is_some() || head.dialect != Dialect::PLAIN;
     let (mut skipped, mut wanted) = (Vec::new(), Vec::new());
@@ -151,6 +155,14 @@ fn by_name(columns: &[Header]) -> Option<usize> {
     of(&|header| is_bare(header) && is_named(header))
         .or_else(|| of(&ends_in_time))
         .or_else(|| of(&is_named))
+}
+
+/// The column of the times, if its unit is wrong.
+fn wrong_time(head: &Head, query: &RecordQuery) -> Option<usize> {
+    match &query.time {
+        Some(asked) => head.columns.iter().position(|header| header.name == asked.name),
+        None => by_name(&head.columns),
+    }
 }
 
 /// The error of a column of numbers and one of dates that may both be the times.

@@ -44,7 +44,7 @@ pub(crate) fn read(
     let head = head.map_err(|problem| vec![problem])?;
     let mut rows = head.reader(&text.text).peekable();
     let choice = choose((&head, text), rows.peek(), (query, extent))?;
-    let note = head.note(text, told(&choice, rows.peek(), query));
+    let note = head.note(text, told((&head, &choice), rows.peek(), query));
     let Choice { time, clock, columns, skipped } = choice;
     let mut work = Work::new(text, Cells::new(head, columns), (time, clock));
     work.record.warnings.extend(note);
@@ -57,12 +57,29 @@ pub(crate) fn read(
 }
 
 /// Words about the times and the columns of a logger's file.
-fn told(choice: &Choice, first: Option<&csv::StringRecord>, query: &RecordQuery) -> Vec<String> {
+fn told(
+    (head, choice): (&Head, &Choice),
+    first: Option<&csv::StringRecord>,
+    query: &RecordQuery,
+) -> Vec<String> {
     let zero = choice.clock.as_ref().zip(first);
     let zero = zero.map(|(clock, first)| format!("0 s at {}", clock.zero_words(first, &query.csv)));
-    let names: Vec<String> = choice.skipped.iter().map(|name| format!("`{name}`")).collect();
-    let skipped = format!("without the columns {}, which have no unit", names.join(", "));
-    zero.into_iter().chain((!names.is_empty()).then_some(skipped)).collect()
+    let unit = |name: &str| {
+        let header = head.columns.iter().find(|header| header.name == name);
+        header.and_then(|header| header.unit.as_deref())
+    };
+    let (mut bare, mut unknown) = (Vec::new(), Vec::new());
+    for name in &choice.skipped {
+        match unit(name) {
+            None => bare.push(format!("`{name}`")),
+            Some(unit) => unknown.push(format!("`{name} [{unit}]`")),
+        }
+    }
+    let left_out = |(names, why): (Vec<String>, &str)| {
+        (!names.is_empty()).then(|| format!("without the columns {}, {why}", names.join(", ")))
+    };
+    let both = [(bare, "which have no unit"), (unknown, "whose units are unknown")];
+    zero.into_iter().chain(both.into_iter().filter_map(left_out)).collect()
 }
 
 impl<'t> Work<'t> {

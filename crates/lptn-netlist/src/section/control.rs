@@ -1,15 +1,16 @@
 //! `[control]`: thermostats.
 
 use lptn_data::Diagnostic;
-use lptn_network::{Acts, ControlId, Field, Input, Item, Network, Thermostat};
-use lptn_units::{Dimension, Quantity, Type, format_number};
+use lptn_network::{Acts, ControlId, Field, Input, Item, Network, Thermostat, is_name};
+use lptn_units::{Dimension, Quantity, Type, Unit, format_number};
 
 use crate::fields::Fields;
 use crate::format::{ABSOLUTE, Role, SectionDeclaration, key, text, words, words_of};
 use crate::names::ValueKind;
 use crate::place::{Place, Wanted};
-use crate::raw::{RawEntry, RawKind};
+use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::source_map::SourceMap;
+use crate::value_help::number_and_unit;
 use crate::work::Elaboration;
 
 const TIME: Type = Type::of(Dimension::TIME);
@@ -182,9 +183,26 @@ fn no_thresholds(fields: &Fields<'_>) -> Diagnostic {
 
 fn half_a_pair(fields: &Fields<'_>, there: &str, missing: &str) -> Diagnostic {
     let message = format!("{} has `{there}` but no `{missing}`", fields.owner.words());
-    let sample = fields.sample(missing);
+    let own = fields.get(there).and_then(|raw| beside(raw, there.ends_with("above")));
+    let sample = own.map_or_else(|| fields.sample(missing), |own| format!("{missing} = \"{own}\""));
     let help = format!("add `{sample}`: a thermostat needs a dead band between two temperatures");
     fields.missing(missing, message).help(help)
+}
+
+/// The dead band of the help, in degrees of the unit of the threshold.
+const BAND: f64 = 5.0;
+
+/// The other threshold of a pair, a dead band below or above this one.
+fn beside(raw: &RawValue, below: bool) -> Option<String> {
+    let RawKind::String { text, .. } = &raw.kind else { return None };
+    let (text, band) = (text.trim(), if below { -BAND } else { BAND });
+    if is_name(text) {
+        let sign = if below { '-' } else { '+' };
+        return Some(format!("{text} {sign} {BAND} [K]"));
+    }
+    let (number, unit) = number_and_unit(text)?;
+    let is_scale = Unit::parse(unit).is_ok_and(|unit| unit.ty.absolute);
+    is_scale.then(|| format!("{} {unit}", format_number(number + band)))
 }
 
 /// Thresholds of both pairs.

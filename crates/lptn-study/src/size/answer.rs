@@ -51,7 +51,7 @@ pub struct Sizing {
     /// range.
     pub closest: usize,
     /// The value in SI units at which a requirement breaks again on the far side of the answer:
-    /// more is not always better.
+    /// more, or for a maximum less, is not always better.
     pub breaks_again: Option<f64>,
     /// The edge at which the network goes to another state, if the verdict is [`Verdict::Edge`].
     pub edge: Option<Edge>,

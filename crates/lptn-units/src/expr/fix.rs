@@ -307,7 +307,11 @@ impl Source<'_> {
             let fix = self.as_difference(root).unwrap_or_else(|| format!("{whole} - 0 [degC]"));
             Kind::DifferenceWanted { fix }
         } else if let Node::Number { .. } = self.tree.node(root) {
-            Kind::BareNumber { wanted, fix: format!("{whole} {}", wanted.usual_unit()) }
+            // a side of a comparison is inside an expression
+            let alone = whole.trim() == self.text.trim();
+            let [open, close] = if alone { ["", ""] } else { ["[", "]"] };
+            let made = format!("{whole} {open}{}{close}", wanted.usual_unit());
+            Kind::BareNumber { wanted, fix: self.replace(root, &made) }
         } else {
             let inverse = || has_inverse(found, wanted).then(|| format!("1 / ({whole})"));
             let turning = || found.differs_by_radians(wanted).then(|| self.turning()).flatten();

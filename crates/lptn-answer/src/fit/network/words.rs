@@ -5,6 +5,7 @@ use lptn_fit::network::{
     ColumnMisfit, Combination, FAR, FittedParameter, Hint, NetworkFit, NetworkFitTask,
 };
 use lptn_netlist::Diagnostic;
+use lptn_network::is_name;
 use lptn_report::significant;
 use lptn_units::Type;
 
@@ -228,21 +229,40 @@ fn misfit(
     let doubt = Diagnostic::warning("fit::misfit", message).at(answer.study.span.clone(), "");
     doubt.help(match worst.hint {
         Some(Hint::Offset(offset)) => format!(
-            "a constant would explain it: does the sensor have an offset of {} {unit}? A `[sensor]` \
-             with `offset = \"0 ± {} {unit}\"`, named by the column, lets the fit find it",
+            "a constant would explain it: does the sensor have an offset of {} {unit}? The fit finds \
+             it if {}",
             significant(offset, 2),
-            significant(offset.abs().ceil(), 6)
+            instrument(
+                (answer, name),
+                &format!("offset = \"0 ± {} {unit}\"", significant(offset.abs().ceil(), 6))
+            )
         ),
         Some(Hint::Lag(seconds)) => format!(
-            "a delay would explain it: does the sensor have a lag of {0} s? A `[sensor]` \
-             with `lag = \"{0} s\"`, named by the column, follows as slowly",
-            significant(seconds, 2)
+            "a delay would explain it: does the sensor have a lag of {0} s? The model follows as \
+             slowly if {1}",
+            significant(seconds, 2),
+            instrument((answer, name), &format!("lag = \"{} s\"", significant(seconds, 2)))
         ),
         None => {
             "look for an effect that the network leaves out, or for a `sigma` that is too \
              small".to_owned()
         }
     })
+}
+
+/// The lines of a sensor of this column with this error, to paste.
+fn instrument((answer, name): (&FitNetworkAnswer, &str), line: &str) -> String {
+    let observed = answer.study.observed.iter().find(|observed| observed.column == name);
+    if let Some(sensor) = observed.and_then(|observed| observed.sensor.as_ref()) {
+        return format!("its sensor has the line `{line}`:\n\n[sensor.{sensor}]\n{line}");
+    }
+    let (key, sensor) =
+        if is_name(name) { (name.to_owned(), name) } else { (format!("{name:?}"), "probe") };
+    let of = observed.map_or("..", |observed| observed.text.as_str());
+    format!(
+        "the column names a sensor, `column = {{ {key} = {{ of = \"{of}\", sensor = \"{sensor}\" }} \
+         }}`:\n\n[sensor.{sensor}]\n{line}"
+    )
 }
 
 /// "P R", "P / C", "2 G1 + G2".

@@ -17,7 +17,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::listener::Listener;
 use model::Model;
-pub(super) use request::units_missing;
+pub(crate) use request::units_missing;
 use request::{Reference, Request};
 
 /// Asks which exponential each temperature of a record follows.

@@ -179,7 +179,7 @@ fn columns(question: &FitStepQuestion, record: &Record, reference: &Reference) -
 }
 
 /// Help if columns of a record were left out because they have no unit.
-pub(in crate::fit) fn units_missing(record: &Record) -> Option<String> {
+pub(crate) fn units_missing(record: &Record) -> Option<String> {
     let option = |name: &String| unit_option(name, Type::ABSOLUTE_TEMPERATURE);
     let options: Vec<String> = record.unitless.iter().map(option).collect();
     (!options.is_empty()).then(|| format!("give the column its unit: {}", options.join(" ")))

@@ -17,6 +17,7 @@ use lptn_study::uncertainty::{
 };
 
 use super::observed::shown;
+use crate::example;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::listener::Listener;
@@ -64,7 +65,19 @@ pub(super) fn check(asked: Option<&UncertaintyQuestion>, input: &Input) -> Resul
         return Err(Failure::refused("run::settings", "a live page has no uncertainty", help));
     }
     let inputs = uncertain(&input.netlist.network, &input.netlist.overrides());
-    inputs.map(drop).map_err(|error| input.failure(&error, None))
+    inputs.map(drop).map_err(|error| refused(&error, input))
+}
+
+/// A failure; help for a file without `±` shows one of its parameters with it.
+fn refused(error: &UncertaintyError, input: &Input) -> Failure {
+    let mut failure = input.failure(error, None);
+    let line = example::deviation(&input.netlist);
+    if let (UncertaintyError::NoDeviation, Some(line)) = (error, line) {
+        let help = format!("give a parameter its standard deviation: `{line}` in [param]");
+        let all = std::mem::take(&mut failure.diagnostics);
+        failure.diagnostics = all.into_iter().map(|problem| problem.help(help.as_str())).collect();
+    }
+    failure
 }
 
 /// Values with `±` that are not parameters, and so are taken as certain.
@@ -115,7 +128,7 @@ impl UncertaintyQuestion {
                 Study { found, linear: Some(linear) }
             }),
         };
-        outcome.map_err(|error| input.failure(&error, None))
+        outcome.map_err(|error| refused(&error, input))
     }
 
     fn sobol(

@@ -15,10 +15,11 @@ use lptn_answer::failure::Failure;
 use lptn_answer::input::Input;
 use lptn_answer::input::quoted;
 use lptn_answer::plot::{Columns, Source, is_netlist, is_record, overlay};
+use lptn_answer::select;
 use lptn_netlist::RunTime;
 use lptn_plot::Figure;
 use lptn_report::Format;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::input::Load as _;
@@ -32,8 +33,8 @@ pub(crate) fn plot(args: &PlotArgs, console: &Console) -> Result<Exit, Failure> 
     }
     let mut exit = Exit::Done;
     let mut sources = Vec::new();
-    for path in &args.sources {
-        let (source, ended) = source(path, args, console)?;
+    for opened in opened(args)? {
+        let (source, ended) = source(opened, args, console)?;
         sources.push(source);
         exit = if exit == Exit::Done { ended } else { exit };
     }
@@ -79,17 +80,68 @@ fn facets(sources: Vec<Source>) -> Vec<Figure> {
     sources.into_iter().map(titled).collect()
 }
 
-/// Reads a record or results, or runs a netlist, which has an exit code.
-fn source(path: &Path, args: &PlotArgs, console: &Console) -> Result<(Source, Exit), Failure> {
-    if is_netlist(path) {
-        return of_netlist(path, args, console);
+/// One of the files, before anything runs.
+struct Opened<'a> {
+    path: &'a Path,
+    /// The netlist, if it is one.
+    input: Option<Input>,
+    /// The patterns of `--select` for this file.
+    select: Vec<String>,
+}
+
+/// Opens all files. A pattern that matches in one of them need not match in the others, but
+/// something of each has to be drawn.
+fn opened(args: &PlotArgs) -> Result<Vec<Opened<'_>>, Failure> {
+    let open = |path: &PathBuf| is_netlist(path).then(|| load(path, args)).transpose();
+    let inputs: Vec<Option<Input>> = args.sources.iter().map(open).collect::<Result<_, _>>()?;
+    let all = || args.select.clone();
+    let paths = args.sources.iter().map(PathBuf::as_path);
+    if args.select.is_empty() || is_alone(args) {
+        let each = |(path, input)| Opened { path, input, select: all() };
+        return Ok(paths.zip(inputs).map(each).collect());
     }
-    let columns = Columns {
-        select: args.select.clone(),
-        temperature_unit: args.scale.temperature_unit.clone(),
-        families: is_alone(args) && !console.verbose,
-        csv: args.form.options()?,
+    let columns = columns(args, all())?;
+    let matching = |(path, input): (&Path, &Option<Input>)| match input {
+        Some(input) => Ok(select::matching(&input.netlist, &args.select)),
+        None => columns.matching(path),
     };
+    let found = paths.clone().zip(&inputs).map(matching);
+    let found: Vec<Vec<bool>> = found.collect::<Result<_, Failure>>()?;
+    let nowhere = |i: usize| !found.iter().any(|matches| matches[i]);
+    let own = |matches: &Vec<bool>| {
+        let kept = (0..matches.len()).filter(|&i| matches[i] || nowhere(i));
+        let kept: Vec<String> = kept.map(|i| args.select[i].clone()).collect();
+        if kept.is_empty() { all() } else { kept }
+    };
+    let each = |((path, input), matches)| Opened { path, input, select: own(matches) };
+    Ok(paths.zip(inputs).zip(&found).map(each).collect())
+}
+
+fn load(path: &Path, args: &PlotArgs) -> Result<Input, Failure> {
+    Input::load_run(&asked(path, args), &args.times, &Belief::Named)
+}
+
+/// A netlist with the values that the command line gives.
+fn asked(path: &Path, args: &PlotArgs) -> crate::options::Source {
+    crate::options::Source { set: args.set.clone(), case: args.case.clone(), file: path.into() }
+}
+
+fn columns(args: &PlotArgs, select: Vec<String>) -> Result<Columns, Failure> {
+    let temperature_unit = args.scale.temperature_unit.clone();
+    Ok(Columns { select, temperature_unit, families: false, csv: args.form.options()? })
+}
+
+/// Reads a record or results, or runs a netlist, which has an exit code.
+fn source(
+    Opened { path, input, select }: Opened<'_>,
+    args: &PlotArgs,
+    console: &Console,
+) -> Result<(Source, Exit), Failure> {
+    if let Some(input) = input {
+        return of_netlist(path, (args, select, input), console);
+    }
+    let families = is_alone(args) && !console.verbose;
+    let columns = Columns { families, ..columns(args, select)? };
     let source = match is_record(path) {
         true => Source::of_record(path, &columns)?,
         false => Source::of_folder(path, &columns)?,
@@ -103,19 +155,20 @@ fn is_alone(args: &PlotArgs) -> bool {
     args.sources.len() == 1
 }
 
-fn of_netlist(path: &Path, args: &PlotArgs, console: &Console) -> Result<(Source, Exit), Failure> {
+fn of_netlist(
+    path: &Path,
+    (args, select, input): (&PlotArgs, Vec<String>, Input),
+    console: &Console,
+) -> Result<(Source, Exit), Failure> {
     let alone = is_alone(args);
-    let (set, case) = (args.set.clone(), args.case.clone());
-    let source = crate::options::Source { set, case, file: path.into() };
-    let input = Input::load_run(&source, &args.times, &Belief::Named)?;
     if args.periodic {
-        return of_cycle(path, (args, input), console);
+        return of_cycle(path, (args, select, input), console);
     }
     let scale = Scale { temperature_unit: args.scale.temperature_unit.clone() };
     let args = RunArgs {
-        source,
+        source: asked(path, args),
         times: args.times.clone(),
-        shown: Shown { format: Format::Csv, select: args.select.clone(), scale },
+        shown: Shown { format: Format::Csv, select, scale },
         time_scale: TimeScale::default(),
         balance: None,
         tolerance: None,
@@ -136,13 +189,13 @@ fn of_netlist(path: &Path, args: &PlotArgs, console: &Console) -> Result<(Source
 /// One cycle of a netlist in periodic steady state.
 fn of_cycle(
     path: &Path,
-    (args, input): (&PlotArgs, Input),
+    (args, select, input): (&PlotArgs, Vec<String>, Input),
     console: &Console,
 ) -> Result<(Source, Exit), Failure> {
     let question = CycleQuestion {
         period: args.period.clone(),
         tolerance: None,
-        select: args.select.clone(),
+        select,
         temperature_unit: args.scale.temperature_unit.clone(),
         balance: None,
         format: Format::Csv,
