@@ -6,13 +6,11 @@
 
 mod subject;
 
-use lptn_netlist::Netlist;
 use lptn_network::is_name;
 use lptn_report::{duration, significant};
-use lptn_units::Unit;
 
 use crate::input::Input;
-use subject::{Subject, Way, with_unit};
+use subject::{Subject, Way};
 
 /// A duration of measurements in s without a `[run]`.
 const USUAL_DURATION: f64 = 1800.0;
@@ -78,29 +76,6 @@ pub(crate) fn infer(input: &Input) -> String {
         "[infer.power]\n{}\nsigma = \"0.1 K\"\nfind = [\"{name}\"]{note}",
         record(&subject.node)
     )
-}
-
-/// The value of a parameter in a load case.
-pub(crate) fn set(netlist: &Netlist) -> Option<String> {
-    let (name, value, unit) = first(netlist)?;
-    Some(format!("{name} = \"{}\"", with_unit(&unit, value)))
-}
-
-/// A parameter with a standard deviation.
-pub(crate) fn deviation(netlist: &Netlist) -> Option<String> {
-    let (name, value, unit) = first(netlist)?;
-    let error = if unit.ty.absolute { "1 K" } else { "10 %" };
-    Some(format!("{name} = \"{} ± {error}\"", with_unit(&unit, value)))
-}
-
-/// The first parameter that is a number with a unit.
-fn first(netlist: &Netlist) -> Option<(&str, f64, Unit)> {
-    let network = &netlist.network;
-    network.parameter_ids().find_map(|id| {
-        let name = network.parameters()[id.index()].name.as_str();
-        let unit = netlist.written_number(id).filter(|_| is_name(name))?.unit;
-        Some((name, network.parameter_value(id), unit))
-    })
 }
 
 /// A `[gearbox.NAME]`.

@@ -13,10 +13,10 @@ use lptn_report::{Json, Text, plain};
 use lptn_units::{Dimension, Problem, Quantity, Type, Unit, UnitError, parse_quantity};
 
 use crate::belief::Belief;
-use crate::example;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::messages;
+use crate::parameter;
 use crate::words::{counts, unverified, unverified_names};
 
 /// The file of rows in a folder of results.
@@ -133,7 +133,7 @@ fn no_case(netlist: &Netlist, text: &Given, name: &str) -> Failure {
     let problem = Diagnostic::error("input::no_case", message);
     let problem = match cases.is_empty() {
         true => {
-            let set = example::set(netlist).unwrap_or_else(|| "p = \"..\"".to_owned());
+            let set = parameter::set(netlist).unwrap_or_else(|| "p = \"..\"".to_owned());
             problem.help(format!("add for example:\n\n[case.{name}]\nset = {{ {set} }}"))
         }
         false => problem.did_you_mean(name, names(), || {

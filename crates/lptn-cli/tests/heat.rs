@@ -207,7 +207,7 @@ fn other_values_of_a_parameter_follow_the_rule_too() {
     folder
         .run(&["check", "x.toml"])
         .exits(1)
-        .prints("`from = \"absolute(280 [K])\"`, or `from = \"280 degC\"` if degrees Celsius are");
+        .prints("write `\"absolute(280 [K])\"`, or `\"280 degC\"` if degrees Celsius are meant");
     let template = "format = 1\n[template.part]\nparam = { T_air = \"25 degC\" \
         }\n[template.part.node]\n\
         a = { C = \"10 J/K\", T0 = \"20 degC\" }\n[template.part.boundary]\nair = { T = \"T_air\" \

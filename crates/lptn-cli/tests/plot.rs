@@ -99,7 +99,8 @@ fn what_was_measured_stands_over_the_run_and_the_difference_below() {
 fn a_record_in_any_unit_of_temperature_lies_over_the_run() {
     let folder = Folder::with("lump.toml", LUMP);
     let same = |celsius: f64| celsius;
-    let units: [(&str, fn(f64) -> f64); 4] = [
+    type Convert = fn(f64) -> f64;
+    let units: [(&str, Convert); 4] = [
         ("\u{b0}C", same),
         ("\u{2103}", same),
         ("K", |celsius| celsius + 273.15),

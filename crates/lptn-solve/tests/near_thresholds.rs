@@ -51,7 +51,7 @@ fn time_of(below: f64) -> f64 {
 fn a_threshold_that_is_the_steady_state_is_not_determined() {
     let solution = run(30.0, "10 W");
     let found = undecided(&solution).unwrap();
-    assert!(!found.switches && found.to == 7200.0, "{found:?}");
+    assert!(!found.switches && found.to > 7199.999, "{found:?}");
     let from = time_of(0.1 * TOLERANCE);
     assert!((found.from - from).abs() < 0.01 * from, "{found:?}, not {from}");
     // 5 W into 10 J/K, from then on

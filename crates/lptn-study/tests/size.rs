@@ -241,3 +241,30 @@ fn a_coolant_carries_the_heat_with_its_rise() {
     near(flow.mass, 223.0 / 2e4, 1e-15);
     near(flow.volume, 223.0 / 1.6e7, 1e-15);
 }
+
+/// What a probability takes from margins that are no straight lines. Powers of 30 ± 3 W into `a` and
+/// `b`, each over `G` to 20 degC; z = 1.644854 on one side, 1.959964 on both (SciPy's `norm.ppf`).
+#[test]
+fn a_probability_holds_on_both_sides_of_a_kink_and_for_times() {
+    let solved = |require: &str| {
+        let text = format!(
+            "format = 1\n[param]\nP_a = \"30 ± 3 W\"\nP_b = \"30 ± 3 W\"\nG = \"1 W/K\"\n[node]\n\
+             a = {{ C = \"100 J/K\", T0 = \"20 degC\" }}\nb = {{ C = \"100 J/K\", T0 = \"20 degC\" \
+             }}\n[boundary]\nair = {{ T = \"20 degC\" }}\n[resistor]\n\
+             r_a = {{ from = \"a\", to = \"air\", G = \"G\" }}\n\
+             r_b = {{ from = \"b\", to = \"air\", G = \"G\" }}\n[source]\n\
+             s_a = {{ into = \"a\", P = \"P_a\" }}\ns_b = {{ into = \"b\", P = \"P_b\" }}\n[size.s]\n\
+             minimise = \"G\"\nvary = {{ G = {{ from = \"0.2 W/K\", to = \"20 W/K\" }} }}\n\
+             require = [\"{require}\"]\nprobability = \"95 %\"\n"
+        );
+        let netlist = parse("a.toml", &text).unwrap_or_else(|rejected| panic!("{rejected}"));
+        solve(&netlist).unwrap().trial.value
+    };
+    // |N(0, 3 sqrt(2) / G)| <= 5 K: both sides of the kink count
+    near(solved("abs(a.T - b.T) <= 5 [K]"), 1.959_964 * 18.0_f64.sqrt() / 5.0, 1e-5);
+    // one parameter, whatever the curve: (30 + 3 z) / G <= 31 K
+    near(solved("(a.T - 20 [degC])^3 <= 31^3 * 1 [K^3]"), 34.934_561 / 31.0, 1e-6);
+    // the hotter of two: 1.0868 is enough (largest of two normal numbers), by squares a little more
+    let hotter = solved("max(a.T, b.T) <= 53 [degC]");
+    assert!(hotter > 1.0868 && hotter < 1.04 * 1.0868, "{hotter}");
+}

@@ -51,7 +51,7 @@ fn slopes(t: f64) -> [f64; 4] {
 #[test]
 fn analytic_every_sensitivity_of_one_node_is_its_closed_form() {
     let found = linear(&one_node(""));
-    assert_eq!(found.method, UncertaintyMethod::Linear { differences: None });
+    assert_eq!(found.method, UncertaintyMethod::Linear { differences: None, bent: vec![] });
     let end = answer(&found, |of| matches!(of, AnswerOf::End(_)));
     all_near(&effects(end), &slopes(1000.0));
     let variance = |t: f64| slopes(t).iter().map(|slope| slope * slope).sum::<f64>();
@@ -146,7 +146,7 @@ fn without_exact_sensitivities_there_are_differences_of_runs() {
             degC\", start = \"on\" }\n\
            [limit]\nhot = { of = \"block.T\", below = \"120 degC\" }\n";
     let found = linear(&parsed(&text, "P = \"200 ± 20 W\"\nT_amb = \"20 degC\""));
-    let UncertaintyMethod::Linear { differences: Some(why) } = &found.method else {
+    let UncertaintyMethod::Linear { differences: Some(why), .. } = &found.method else {
         panic!("{:?}", found.method)
     };
     assert!(!why.is_empty());
@@ -333,4 +333,30 @@ fn random_slopes_of_extremes_are_those_of_runs_beside() {
             }
         }
     }
+}
+
+/// A body that starts at 60 degC and settles at 20 degC + P / G = 58 degC, P = 38 ± 6 W: its peak is
+/// the start, but 49.76 W (97.5 %) take it to 69.76 degC. The margin of 65 degC is 5 K there and
+/// -4.76 K here: it falls by 9.76 K. With 30 ± 6 W the start stays the worst.
+#[test]
+fn straight_lines_that_miss_another_moment_are_named() {
+    let found = |power: &str| {
+        let text = format!(
+            "format = 1\n[param]\nP = \"{power}\"\n[node]\na = {{ C = \"100 J/K\", T0 = \"60 degC\" \
+             }}\n[boundary]\nair = {{ T = \"20 degC\" }}\n[resistor]\n\
+             r = {{ from = \"a\", to = \"air\", G = \"1 W/K\" }}\n[source]\n\
+             s = {{ into = \"a\", P = \"P\" }}\n[limit]\nl = {{ of = \"a.T\", below = \"65 degC\" }}\n\
+             [run]\nstop = \"1 h\"\n"
+        );
+        let netlist = lptn_netlist::parse("a.toml", &text).unwrap_or_else(|e| panic!("{e}"));
+        match linear(&netlist).method {
+            UncertaintyMethod::Linear { bent, .. } => bent,
+            UncertaintyMethod::Sobol { .. } => panic!("linear"),
+        }
+    };
+    let bent = found("38 ± 6 W");
+    let margin = bent.iter().find(|bent| matches!(bent.of, AnswerOf::Margin(_))).unwrap();
+    near(margin.found, 38.0 + 1.959_963_985 * 6.0 - 40.0, 1e-3);
+    assert!(margin.linear < 1e-3, "{margin:?}");
+    assert_eq!(found("20 ± 6 W"), []);
 }

@@ -13,6 +13,7 @@ use lptn_study::{Ranking, has_effect};
 use lptn_units::{Dimension, Type, Unit};
 
 use crate::input::Input;
+use crate::parameter::with_unit;
 
 /// Nodes of the largest network that is solved for an example.
 const MOST_NODES: usize = 10_000;
@@ -151,12 +152,6 @@ fn unsolved(network: &Network, node: &str) -> String {
 /// The next round temperature in degC above one in K.
 fn rounded(temperature: f64) -> f64 {
     5.0 * ((temperature - ZERO_CELSIUS) / 5.0 + 0.1).ceil()
-}
-
-/// A value with its unit, as short as it can be.
-pub(super) fn with_unit(unit: &Unit, value: f64) -> String {
-    let number = significant(unit.from_si(value), 3);
-    if unit.text == "1" { number } else { format!("{number} {}", unit.text) }
 }
 
 /// The parameter whose study makes most sense: among the same kind the first of the file.

@@ -30,7 +30,7 @@ pub struct Undecided {
     pub to: f64,
     /// True if it switches at [`Undecided::to`], false if it does not.
     pub switches: bool,
-    /// The largest error of a temperature from it in K, if temperatures do not decay meanwhile.
+    /// The largest error of a temperature from it in K, if temperatures do not decay until then.
     pub error: f64,
 }
 

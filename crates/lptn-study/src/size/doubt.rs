@@ -15,6 +15,9 @@ const RECTANGLE: f64 = 1.732_050_807_568_877_2;
 /// Parameters that move together, each by this share of its standard deviation.
 type Direction = [(Uncertain, f64)];
 
+/// A design and the load case it is in.
+type Place<'a> = (&'a [(ParameterId, f64)], &'a LoadCase);
+
 /// Standard deviations that a probability means.
 struct Quantiles {
     /// On one side.
@@ -47,7 +50,7 @@ impl Judge<'_> {
     pub(super) fn doubt(
         &self,
         judged: &mut Judged,
-        at: (&[(ParameterId, f64)], &LoadCase),
+        at: Place<'_>,
         (doubt, care): (Doubt<'_>, Care),
     ) -> Result<(), TrialError> {
         let count = judged.margins.len();
@@ -77,7 +80,7 @@ impl Judge<'_> {
     /// rectangle is left no further than to its end.
     fn moved(
         &self,
-        (direction, (design, case)): (&Direction, (&[(ParameterId, f64)], &LoadCase)),
+        (direction, (design, case)): (&Direction, Place<'_>),
         (sign, deviations): (f64, f64),
         (margins, care): (&[f64], Care),
     ) -> Result<Vec<f64>, TrialError> {

@@ -4,7 +4,6 @@ mod bent;
 mod line;
 mod margins;
 
-pub use bent::Bent;
 use lptn_assembly::ThermalSystem;
 use lptn_solve::Proceed;
 use lptn_units::statistics::{NORMAL_95, share_below};

@@ -2,9 +2,8 @@
 
 use lptn_network::NodeId;
 
-use crate::uncertainty::answer::Answer;
+use crate::uncertainty::answer::{Answer, AnswerOf};
 use crate::uncertainty::input::Inputs;
-use crate::uncertainty::linear::Bent;
 use crate::uncertainty::lost::Lost;
 
 /// The method by which the uncertainty of the results was found.
@@ -29,6 +28,18 @@ pub enum UncertaintyMethod {
         /// Runs without a result: the bands are those of the others.
         lost: Vec<Lost>,
     },
+}
+
+/// A result that runs take further than straight lines do.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bent {
+    /// The result.
+    pub of: AnswerOf,
+    /// Half the band of 95 % of straight lines, in SI units.
+    pub linear: f64,
+    /// The larger change in SI units, down or up, if each parameter is at the 2.5 % or 97.5 % end of
+    /// its own distribution; the changes by several parameters add as squares.
+    pub found: f64,
 }
 
 /// The temperature of a node over the rows, in K, with its band of 95 %.

@@ -17,10 +17,10 @@ use lptn_study::uncertainty::{
 };
 
 use super::observed::shown;
-use crate::example;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::listener::Listener;
+use crate::parameter;
 
 /// Method that carries the `±` of parameters to the results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,7 +71,7 @@ pub(super) fn check(asked: Option<&UncertaintyQuestion>, input: &Input) -> Resul
 /// A failure; help for a file without `±` shows one of its parameters with it.
 fn refused(error: &UncertaintyError, input: &Input) -> Failure {
     let mut failure = input.failure(error, None);
-    let line = example::deviation(&input.netlist);
+    let line = parameter::deviation(&input.netlist);
     if let (UncertaintyError::NoDeviation, Some(line)) = (error, line) {
         let help = format!("give a parameter its standard deviation: `{line}` in [param]");
         let all = std::mem::take(&mut failure.diagnostics);

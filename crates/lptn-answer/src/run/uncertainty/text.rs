@@ -321,7 +321,7 @@ pub(crate) fn bends(network: &Network, bent: &[Bent]) -> Option<String> {
         AnswerOf::Margin(_) => "the margin of",
     };
     Some(format!(
-        "straight lines do not hold for {of} `{}`{others}: it changes by up to {found}{unit} within 95 % of \
+        "straight lines are wrong for {of} `{}`{others}: it changes by up to {found}{unit} within 95 % of \
          the parameters, not by {linear}{unit}; use --uncertainty sobol",
         name(network, worst.of)
     ))

@@ -6,8 +6,9 @@
 use lptn_solve::Proceed;
 use lptn_units::statistics::NORMAL_95;
 
-use crate::uncertainty::answer::{Answer, AnswerOf};
+use crate::uncertainty::answer::Answer;
 use crate::uncertainty::input::{Inputs, Uncertain};
+use crate::uncertainty::result::Bent;
 use crate::uncertainty::sample::{NoSample, Sample};
 use crate::uncertainty::task::UncertaintyTask;
 
@@ -17,18 +18,6 @@ const BEYOND: f64 = 0.5;
 /// Changes below this part of a result, or this many tolerances in K, are the error of the runs.
 const ERROR: f64 = 1e-6;
 const TOLERANCES: f64 = 20.0;
-
-/// A result that runs take further than straight lines do.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Bent {
-    /// The result.
-    pub of: AnswerOf,
-    /// Half the band of 95 % of straight lines, in SI units.
-    pub linear: f64,
-    /// The larger change in SI units, down or up, if each parameter is at the 2.5 % or 97.5 % end of
-    /// its own distribution; the changes by several parameters add as squares.
-    pub found: f64,
-}
 
 impl UncertaintyTask<'_> {
     /// Runs the network with each parameter, and those correlated to it, at both ends of its 95 %;
