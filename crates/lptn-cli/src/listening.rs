@@ -54,7 +54,7 @@ impl Listening<'_> {
 
 impl Listener for Listening<'_> {
     fn warn(&self, files: &Files, doubts: &[Diagnostic]) {
-        // doubts are told in advance because a long answer begins
+        // doubts come in advance if a long answer begins
         let _ = self.proceed();
         self.line().clear();
         self.console.warn_early(files, doubts);

@@ -143,7 +143,7 @@ fn a_record_without_a_known_unit_says_so() {
         .run(&["plot", "tc.csv"])
         .exits(2)
         .says("`T [Grad C]`, whose units are unknown")
-        .says("tc.csv has no column of numbers with a unit beside its times")
+        .says("tc.csv has no column of numbers with a unit")
         .says("--unit T=degC");
     folder.run(&["plot", "tc.csv", "--unit", "T=degC"]).exits(0);
     folder.write("gap.csv", "t [s],a [mm],b [mm]\n0,1,2\n60,2,3\n");

@@ -231,7 +231,7 @@ fn no_column(name: &str, record: Record, files: Files) -> Failure {
             format!("it has {}", names.join(", ")),
         );
     }
-    let message = format!("{name} has no column of numbers with a unit beside its times");
+    let message = format!("{name} has no column of numbers with a unit");
     let problem = Diagnostic::error("select::no_match", message);
     let problem = problem.help(match units_missing(&record) {
         Some(help) => help,
