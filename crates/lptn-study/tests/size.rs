@@ -242,8 +242,8 @@ fn a_coolant_carries_the_heat_with_its_rise() {
     near(flow.volume, 223.0 / 1.6e7, 1e-15);
 }
 
-/// What a probability takes from margins that are no straight lines. Powers of 30 ± 3 W into `a` and
-/// `b`, each over `G` to 20 degC; z = 1.644854 on one side, 1.959964 on both (SciPy's `norm.ppf`).
+/// The part that a probability takes from margins that are not straight lines. Powers of 30 ± 3 W
+/// into `a` and `b`, each over `G` to 20 degC; z = 1.644854 on one side, 1.959964 on both (SciPy's `norm.ppf`).
 #[test]
 fn a_probability_holds_on_both_sides_of_a_kink_and_for_times() {
     let solved = |require: &str| {

@@ -89,8 +89,8 @@ impl Kept {
         let said =
             |i: usize, value: f64| format!("{}{}", significant(value, 2), spaced(&self.unit(i)));
         Some(format!(
-            "by the ± of parameters margins scatter by up to {}; terms of second order move them by up to \
-             {}",
+            "by the ± of parameters margins scatter by up to {}; terms of second order move \
+             them by up to {}",
             said(i, deviation),
             said(k, left_out)
         ))

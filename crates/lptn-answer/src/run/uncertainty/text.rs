@@ -321,8 +321,8 @@ pub(crate) fn bends(network: &Network, bent: &[Bent]) -> Option<String> {
         AnswerOf::Margin(_) => "the margin of",
     };
     Some(format!(
-        "straight lines are wrong for {of} `{}`{others}: it changes by up to {found}{unit} within 95 % of \
-         the parameters, not by {linear}{unit}; use --uncertainty sobol",
+        "straight lines are wrong for {of} `{}`{others}: it changes by up to {found}{unit} within \
+         95 % of the parameters, not by {linear}{unit}; use --uncertainty sobol",
         name(network, worst.of)
     ))
 }
