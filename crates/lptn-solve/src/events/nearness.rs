@@ -4,7 +4,7 @@
 //! or never. So may one whose peak just touches the threshold. If a quantity is nearer to its
 //! threshold than the run is accurate for a time `tau`, its switch is uncertain by `tau`. The
 //! temperatures then err by `tau` times the change of their rates at the switch. This is the
-//! saltation of hybrid systems (M. A. Müller, Chaos, Solitons & Fractals 5 (1995) 1671).
+//! saltation of hybrid systems (P. C. Müller, Chaos, Solitons & Fractals 5 (1995) 1671).
 
 use super::EventKind;
 

@@ -153,6 +153,8 @@ impl<'a> Switching<'a> {
     }
 
     fn flip(&mut self, position: usize, time: f64) {
+        // one that follows from another has no stay of its own
+        self.nearness.switch(position, time);
         let state = match position.checked_sub(self.positions.controls.len()) {
             None => {
                 self.since[position] = time;
