@@ -1,6 +1,6 @@
 //! The trust in an answer.
 
-use lptn_network::{InputError, LimitId, Network, ReportId};
+use lptn_network::{InputError, LimitId, Network, Passing, ReportId};
 use lptn_solve::{Beyond, Others, OutOfRange, Solution, SteadyState, Unbounded};
 
 /// Limits on the trust in numbers that a reader has to know. None of them is an error: an energy
@@ -21,6 +21,9 @@ pub struct Trust {
     /// The factor by which a cycle multiplies a disturbance of a periodic steady state, if it is
     /// above 1: the state is unstable.
     pub grows: Option<f64>,
+    /// The nodes into which flows of a flow network bring another stream than they take away, at
+    /// the end of a run or in steady state.
+    pub unbalanced: Vec<Passing>,
 }
 
 /// A result that changes faster than steps are evaluated.
@@ -78,6 +81,7 @@ impl Trust {
             unresolved: Unresolved::all_of(solution),
             others: Others::None,
             grows: None,
+            unbalanced: flows_of_run(solution).unwrap_or_default(),
         }
     }
 
@@ -89,6 +93,22 @@ impl Trust {
             unresolved: Vec::new(),
             others: steady.others.clone(),
             grows: None,
+            unbalanced: flows_of_steady(network, steady)?,
         })
     }
+}
+
+/// [`Network::unbalanced_flows`] at the end of a run.
+fn flows_of_run(solution: &Solution) -> Result<Vec<Passing>, InputError> {
+    let (network, last) = (solution.network(), solution.last());
+    let mut scope = network.evaluation();
+    scope.set_time(last.time, last.time);
+    let mut boundaries = vec![f64::NAN; network.boundaries().len()];
+    network.boundary_temperatures(&mut scope, &mut boundaries)?;
+    network.unbalanced_flows(last.time, &[&last.temperatures[..], &boundaries].concat())
+}
+
+fn flows_of_steady(network: &Network, steady: &SteadyState) -> Result<Vec<Passing>, InputError> {
+    let temperatures = [&steady.temperatures[..], &steady.boundary_temperatures].concat();
+    network.unbalanced_flows(steady.time, &temperatures)
 }

@@ -385,7 +385,10 @@ pub fn positive(
 pub fn wrong_unit(name: &str, text: &str, error: &UnitError) -> Failure {
     let mut files = Files::new();
     let file = files.add(name, text);
-    let problem = told(error).at(Span::new(file, error.span.clone()), "");
+    let mut problem = told(error).at(Span::new(file, error.span.clone()), "");
+    if problem.message.starts_with("must be ") {
+        problem.message = format!("`{name}` {}", problem.message);
+    }
     Failure::at(Exit::Input, files, problem)
 }
 

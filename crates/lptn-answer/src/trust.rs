@@ -15,7 +15,10 @@ pub fn doubts(netlist: &Netlist, trust: &Trust, run: bool) -> Vec<Diagnostic> {
     let outside = ranges::warnings(netlist, &trust.out_of_range, run);
     let unresolved = trust.unresolved.iter().map(|open| unresolved(netlist, open));
     let grows = trust.grows.map(unstable);
-    beyond.chain(outside).chain(unresolved).chain(grows).collect()
+    let streams = trust.unbalanced.iter().map(|passing| {
+        lptn_netlist::unbalanced_streams(&netlist.network, &netlist.source_map, *passing)
+    });
+    beyond.chain(outside).chain(unresolved).chain(grows).chain(streams).collect()
 }
 
 /// The warning about a periodic state from which runs depart.

@@ -12,6 +12,7 @@ use crate::arguments;
 use crate::console::Console;
 use crate::drawing::terminal_width;
 use crate::options::{Color, Global, TEMPLATE};
+use crate::usage::{self, verb_words};
 use crate::verbs::{Verb, groups};
 use lptn_answer::exit::Exit;
 use lptn_answer::input::quoted;
@@ -56,164 +57,23 @@ pub(crate) fn refuse(error: &clap::Error) -> Exit {
         }
         _ => None,
     };
-    let problem = page_without_sign(error)
-        .or_else(|| no_such_option(error))
-        .or_else(|| word_too_many(error))
-        .or_else(|| {
-            verb.map(|verb| {
-                let other = || near_verb(verb).or_else(|| path_as_verb(verb));
-                file_as_verb(verb).or_else(other).unwrap_or_else(|| no_verb(verb))
-            })
-        });
+    let problem = usage::explained(error).or_else(|| {
+        verb.map(|verb| {
+            let other = || near_verb(verb).or_else(|| path_as_verb(verb));
+            file_as_verb(verb).or_else(other).unwrap_or_else(|| no_verb(verb))
+        })
+    });
     let global =
         Global { quiet: false, verbose: false, color: Color::Auto, plot: None, report: None };
     let console = Console::new(&global, None);
     let problem = match problem {
         Some(problem) => problem,
         None if !error.use_stderr() => error.exit(),
-        None => wrong_usage(&error.render().to_string()),
+        None => usage::wrong_usage(&error.render().to_string()),
     };
     console.report(&Files::new(), &[problem]);
     console.answer_failure(Exit::Input);
     Exit::Input
-}
-
-/// The parser's message on a command line as a diagnostic.
-fn wrong_usage(text: &str) -> Diagnostic {
-    let mut parts = text.trim_end().split("\n\n").map(|part| {
-        let lines: Vec<&str> = part.lines().map(str::trim).collect();
-        lines.join(" ")
-    });
-    let first = parts.next().unwrap_or_default();
-    let problem = Diagnostic::error("input::usage", first.trim_start_matches("error: "));
-    let problem = parts.filter(|part| !part.starts_with("For more")).fold(
-        problem,
-        |problem, part| match part.strip_prefix("tip: ") {
-            Some(tip) => problem.help(tip),
-            None => problem.note(part),
-        },
-    );
-    problem.help(lists_options())
-}
-
-/// `--report page.html`, of which only `--report` is understood.
-fn page_without_sign(error: &clap::Error) -> Option<Diagnostic> {
-    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidArg) else { return None };
-    let is_page = Path::new(word).extension().is_some_and(|ending| ending == "html");
-    let message = format!("{word} is a separate word: the file of a report is joined with =");
-    let problem = Diagnostic::error("input::report_file", message);
-    is_page.then(|| problem.help(format!("write --report={}", quoted(word))))
-}
-
-/// An unknown option. The parser's own suggestion is not used: it takes distant words for near.
-fn no_such_option(error: &clap::Error) -> Option<Diagnostic> {
-    let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg) else {
-        return None;
-    };
-    if error.kind() != ErrorKind::UnknownArgument || !option.starts_with('-') {
-        return None;
-    }
-    let message = format!("`{}` has no option `{option}`", command_line());
-    let problem = Diagnostic::error("input::no_option", message);
-    let help = lists_options();
-    Some(problem.help(match (verbs_with(option).as_slice(), near_option(option)) {
-        ([], Some(near)) => format!("did you mean `{near}`? {help}"),
-        ([], None) => help,
-        (verbs, _) => format!("{help}; {option} belongs to {}", verbs.join(", ")),
-    }))
-}
-
-/// `lptn` with the verb of the command line.
-fn command_line() -> String {
-    let words = std::iter::once("lptn".to_owned()).chain(verb_words());
-    words.collect::<Vec<_>>().join(" ")
-}
-
-fn lists_options() -> String {
-    format!("`{} --help` lists its options", command_line())
-}
-
-/// The option of the verb that is nearly this one.
-fn near_option(option: &str) -> Option<String> {
-    let mut command = Args::command();
-    let everywhere: Vec<String> = longs(&command).collect();
-    for word in verb_words() {
-        command = command.find_subcommand(&word)?.clone();
-    }
-    let own: Vec<String> = longs(&command).chain(everywhere).collect();
-    suggest(option, own.iter().map(String::as_str)).map(str::to_owned)
-}
-
-/// The options of a verb, `--stop`.
-fn longs(command: &Command) -> impl Iterator<Item = String> {
-    let shown = command.get_arguments().filter(|argument| !argument.is_hide_set());
-    shown.filter_map(|argument| Some(format!("--{}", argument.get_long()?)))
-}
-
-/// The verb of the command line, and the one inside it: `fit`, `network`.
-fn verb_words() -> Vec<String> {
-    let mut command = Args::command();
-    let mut words = Vec::new();
-    for word in arguments::words() {
-        let Some(inner) = command.find_subcommand(&word).cloned() else { continue };
-        words.push(word);
-        command = inner;
-    }
-    words
-}
-
-/// The verbs that have this option.
-fn verbs_with(option: &str) -> Vec<String> {
-    let has = |command: &Command| longs(command).any(|long| long == option);
-    let root = Args::command();
-    let mut found = Vec::new();
-    for verb in root.get_subcommands() {
-        let name = verb.get_name();
-        if has(verb) {
-            found.push(format!("`lptn {name}`"));
-        }
-        for inner in verb.get_subcommands().filter(|inner| has(inner)) {
-            found.push(format!("`lptn {name} {}`", inner.get_name()));
-        }
-    }
-    found
-}
-
-/// A word too many: a value without its `=`, a quantity without quotes, a second netlist.
-fn word_too_many(error: &clap::Error) -> Option<Diagnostic> {
-    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidArg) else { return None };
-    let words = arguments::words();
-    if error.kind() != ErrorKind::UnknownArgument || word.starts_with('-') {
-        return None;
-    }
-    let problem = |message: String, help: String| {
-        Some(Diagnostic::error("input::word_too_many", message).help(help))
-    };
-    let set = words.windows(3).find(|three| three[0] == "--set" && !three[1].contains('='));
-    if let Some([_, name, value]) = set {
-        let message = format!("`--set {name}` has no value");
-        return problem(message, format!("write --set {}", quoted(&format!("{name}={value}"))));
-    }
-    let rest = words.get(1..).unwrap_or_default();
-    match words.first().map(String::as_str)? {
-        "units" => problem(
-            format!("a quantity is one word, but `{word}` is another"),
-            format!("write lptn units \"{}\"", rest.join(" ")),
-        ),
-        verb if is_netlist(word) => {
-            let files: Vec<String> =
-                rest.iter().filter(|word| is_netlist(word)).map(|word| quoted(word)).collect();
-            problem(
-                format!("`lptn {verb}` takes one netlist, but {word} is another"),
-                format!("`lptn compare {}` compares them", files.join(" ")),
-            )
-        }
-        _ => None,
-    }
-}
-
-fn is_netlist(word: &str) -> bool {
-    Path::new(word).extension().is_some_and(|ending| ending == "toml")
 }
 
 /// The name of a file instead of a verb.

@@ -26,6 +26,7 @@ mod phases;
 mod progress;
 mod refusal;
 mod reporting;
+mod usage;
 mod verbs;
 mod verdict;
 mod written;

@@ -88,7 +88,7 @@ fn other_offered_studies_are_accepted_in_every_shipped_network() {
     let (folder, names) = shipped();
     let mut failed = Vec::new();
     for name in &names {
-        for command in ["sweep", "plan", "fit network"] {
+        for command in ["sweep", "plan", "fit network", "infer"] {
             let Some(section) = offered(&folder, command, name) else { continue };
             record(&folder, name, &section);
             let pasted = paste(&folder, name, &section);

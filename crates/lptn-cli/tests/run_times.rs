@@ -115,6 +115,34 @@ fn an_option_that_a_command_does_not_have_is_explained() {
     }
 }
 
+/// A word too many is explained by its likely meaning, with the words to write instead.
+#[test]
+fn a_word_without_a_place_is_explained() {
+    let folder = Folder::with("lump.toml", LUMP);
+    let cases: [(&[&str], &str); 12] = [
+        (&["run", "lump.toml", "--stop", "2", "h"], "write --stop \"2 h\""),
+        (&["units", "3", "m", "2"], "write lptn units \"3 m 2\""),
+        (&["steady", "lump.toml", "R=3K/W"], "write --set 'R=3K/W'"),
+        (&["run", "lump.toml", "--set", "R", "3K/W"], "write --set 'R=3K/W'"),
+        (&["reduce", "lump.toml", "lump"], "a port is named by --port lump"),
+        (&["steady", "lump.toml", "now"], "`lptn steady --help` lists its options"),
+        (&["run", "lump.toml", "-set", "R=3K/W"], "did you mean `--set`?"),
+        (&["run", "lump.toml", "-quiet"], "did you mean `--quiet`?"),
+        (&["size", "lump.toml", "--limit", "90degC"], "`--limit` cannot be used with a netlist"),
+        (
+            &["run", "lump.toml", "--no-files", "-o", "x"],
+            "`--no-files` cannot be used with `--output`",
+        ),
+        (&["reduce", "lump.toml", "--port", "lump", "--max-error", "5"], "--max-error 5%"),
+        (&["run", "lump.toml", "--stop", "7200"], "`--stop` must be a time (s)"),
+    ];
+    for (words, help) in cases {
+        let ran = folder.run(words).exits(2);
+        let err = ran.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(err.contains(help), "{words:?}: {err}");
+    }
+}
+
 /// The former words do what they did, and name the new ones.
 #[test]
 fn former_words_of_set_up_work() {

@@ -140,6 +140,7 @@ pub use size::{
 };
 pub use source_map::SourceMap;
 pub use state::{SavedState, StateControl, StateEnd};
+pub use streams::unbalanced_streams;
 pub use sweep::{
     AxisNumbers, MOST_CASES, Measure, SweepAxis, SweepMethod, SweepOver, SweepPlan, SweepStudy,
 };

@@ -1,5 +1,11 @@
 //! `[run]`: the run to simulate.
 
+mod declaration;
+
+pub(crate) use declaration::RUN;
+
+use declaration::OUTPUT;
+
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{
     AfterEnd, Evaluation, IntegratorChoice, Network, OutputTimes, RunSettings, Value,
@@ -7,94 +13,12 @@ use lptn_network::{
 };
 
 use crate::fields::{Fields, Owner};
-use crate::format::{
-    Role, SectionDeclaration, Takes, key, names, number, shaped, text, words, words_of,
-};
-use crate::outputs::{WINDOW, WindowPlan};
+use crate::outputs::WindowPlan;
 use crate::raw::{RawKind, RawValue};
 use crate::reading::all;
 use crate::section::SIGNAL;
 use crate::setting::{Setting, TIME};
 use crate::work::Elaboration;
-
-pub(crate) const RUN: SectionDeclaration = SectionDeclaration {
-    name: "run",
-    sentence: "The simulation over time.",
-    role: Role::Study,
-    keys: &[
-        key("stop", "s", "when the run ends", "\"25 min\"").needed(),
-        key("start", "s", "when it begins", "\"0 s\"").or("0 s"),
-        text(
-            "initial",
-            "file",
-            "the state of another run, which it starts from",
-            "\"out/gearbox/state.json\"",
-        ),
-        shaped(
-            "output",
-            "table",
-            Takes::Table(&OUTPUT),
-            "when rows are written: at intervals of `every`, or `at` listed times",
-            "{ every = \"5 s\" }",
-        )
-        .or("301 rows"),
-        names("select", "list of patterns", "which columns are written", "[\"*.T\"]").or("all"),
-        shaped(
-            "report",
-            "table of expressions of results",
-            Takes::Each(&Takes::Like),
-            "further columns, or numbers over time by a functional",
-            "{ rise = \"steel.T - air.T\" }",
-        ),
-        shaped(
-            "window",
-            "table",
-            Takes::Each(&Takes::Table(&WINDOW)),
-            "parts of the run with means and extremes: `from` and `to`",
-            "{ climb = { from = \"10 min\", to = \"20 min\" } }",
-        ),
-        key("tolerance", "K", "the accuracy of temperatures", "\"1e-5 K\"").or("1e-5 K"),
-        number(
-            "balance_error",
-            "largest error of the energy balance, as a share of the heat exchanged",
-            "1e-10",
-        )
-        .or("1e-8, and 10 tolerances times all capacities"),
-        words(
-            "integrator",
-            &words_of(&IntegratorChoice::WORDS),
-            "the method: `one_step` is for linear networks, `esdirk` for inputs of many points",
-            "\"cvode\"",
-        )
-        .or("`\"auto\"`"),
-    ],
-    example: "{ stop = \"25 min\" }",
-    elsewhere: &[
-        ("end", "the end of a run is `stop`"),
-        ("duration", "the end of a run is `stop`"),
-        ("every", "write `output = { every = {value} }`"),
-        ("step", "write `output = { every = {value} }`; the solver chooses its own steps"),
-        ("at", "write `output = { at = [{value}] }`"),
-    ],
-    ..SectionDeclaration::NEW
-};
-
-/// `output = { … }` of `[run]`.
-const OUTPUT: SectionDeclaration = SectionDeclaration {
-    name: "output",
-    keys: &[
-        key("every", "s", "the time between two rows", "\"5 s\""),
-        shaped(
-            "at",
-            "list of times",
-            Takes::list(&Takes::Quantity("s")),
-            "the times of the rows, rising",
-            "[\"0 s\", \"5 s\"]",
-        ),
-    ],
-    example: "{ every = \"5 s\" }",
-    ..SectionDeclaration::NEW
-};
 
 /// `[run]` before its expressions are evaluated: `--set` may change their parameters.
 #[derive(Clone, Debug)]

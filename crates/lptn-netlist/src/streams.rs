@@ -11,7 +11,7 @@ use crate::source_map::SourceMap;
 pub(crate) fn unbalanced(network: &Network, map: &SourceMap, time: f64) -> Vec<Diagnostic> {
     let passing = network.passing_streams(time).unwrap_or_default();
     let uneven = passing.into_iter().filter(|passing| !passing.is_balanced());
-    uneven.map(|passing| warning(network, map, passing)).collect()
+    uneven.map(|passing| unbalanced_streams(network, map, passing)).collect()
 }
 
 /// A warning for each cooler whose outlet gets another stream than the one that it cools, as
@@ -45,7 +45,8 @@ fn short(rate: f64) -> String {
     lptn_units::format_number(format!("{rate:.5e}").parse().unwrap_or(rate))
 }
 
-fn warning(network: &Network, map: &SourceMap, passing: Passing) -> Diagnostic {
+/// The warning about a node into which streams bring another capacity rate than they take away.
+pub fn unbalanced_streams(network: &Network, map: &SourceMap, passing: Passing) -> Diagnostic {
     let Passing { node, inflow, outflow, growth } = passing;
     let end = End::Node(node);
     let first = network.conductors().iter().zip(network.conductor_ids()).find(|(conductor, _)| {

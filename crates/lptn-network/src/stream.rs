@@ -10,6 +10,10 @@ use crate::parts::state_capacity::StateCapacity;
 /// Temperature at which capacity rates are compared, in K.
 const REFERENCE: f64 = 298.15;
 
+/// The share of a capacity rate by which the specific heat of a fluid may vary between the streams
+/// into a node.
+const FLUID_VARIES: f64 = 0.1;
+
 /// Total capacity rates in W/K of the streams into a node and out of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passing {
@@ -45,7 +49,7 @@ pub struct Outlet {
 impl Outlet {
     /// True if they are one stream, whose specific heat may differ somewhat between temperatures.
     pub fn is_one_stream(&self) -> bool {
-        (self.rate - self.inflow).abs() <= 0.1 * self.rate.max(self.inflow)
+        (self.rate - self.inflow).abs() <= FLUID_VARIES * self.rate.max(self.inflow)
     }
 }
 
@@ -81,33 +85,81 @@ impl Network {
     }
 
     /// The streams that pass each node, at `time` in s and with everything at 25 degC, so that one
-    /// flow of one fluid has one capacity rate.
+    /// flow of one fluid has one capacity rate. Nodes that flows of a flow network pass are left
+    /// out: their pressures are not known yet, see [`Network::unbalanced_flows`].
     ///
     /// # Errors
     /// [`InputError`] if a flow has no value.
     pub fn passing_streams(&self, time: f64) -> Result<Vec<Passing>, InputError> {
-        let mut scope = self.evaluation();
-        scope.set_time(time, time);
         let mut temperatures = vec![REFERENCE; self.nodes().len() + self.boundaries().len()];
         for state in self.states().iter().filter(|state| !state.balanced) {
             temperatures[state.node.index()] = self.initial(state.node);
         }
+        let mut passing = self.passing(time, &temperatures)?;
+        let solved = self.nodes_of_flows();
+        passing.retain(|p| !solved.contains(&p.node));
+        Ok(passing)
+    }
+
+    /// The nodes that flows of a flow network pass, and whose inflow and outflow differ by more than
+    /// a tenth: more than the specific heat of one fluid usually varies. `temperatures` are those of
+    /// all nodes and boundaries in K, with the pressures, at `time` in s.
+    ///
+    /// # Errors
+    /// [`InputError`] if a flow has no value.
+    pub fn unbalanced_flows(
+        &self,
+        time: f64,
+        temperatures: &[f64],
+    ) -> Result<Vec<Passing>, InputError> {
+        let solved = self.nodes_of_flows();
+        if solved.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut passing = self.passing(time, temperatures)?;
+        let differ = |p: &Passing| {
+            (p.inflow - p.outflow - p.growth).abs() > FLUID_VARIES * p.inflow.max(p.outflow)
+        };
+        passing.retain(|p| solved.contains(&p.node) && differ(p));
+        Ok(passing)
+    }
+
+    /// The nodes at the ends of streams that read a pressure.
+    fn nodes_of_flows(&self) -> Vec<NodeId> {
+        let balanced = self.states().iter().filter(|state| state.balanced);
+        let pressures: Vec<usize> = balanced.map(|state| state.node.index()).collect();
+        if pressures.is_empty() {
+            return Vec::new();
+        }
+        let reads = |id: &ConductorId| {
+            let variables = self.conductor_variables(*id);
+            variables.iter().any(|&vertex| pressures.contains(&(vertex as usize)))
+        };
+        let streams = self.conductor_ids().zip(self.conductors());
+        let streams = streams.filter(|(id, of)| of.law.is_stream() && reads(id));
+        let ends = streams.flat_map(|(_, of)| [of.from, of.to]);
+        ends.filter_map(|end| if let End::Node(node) = end { Some(node) } else { None }).collect()
+    }
+
+    /// The streams that pass each node, at `time` in s and these temperatures of all nodes and
+    /// boundaries in K.
+    fn passing(&self, time: f64, temperatures: &[f64]) -> Result<Vec<Passing>, InputError> {
+        let mut scope = self.evaluation();
+        scope.set_time(time, time);
         let none = |node| Passing { node, inflow: 0.0, outflow: 0.0, growth: 0.0 };
         let mut passing: Vec<Passing> = self.node_ids().map(none).collect();
         for of in self.state_capacities() {
-            passing[of.node.index()].growth = self.growth(of, &mut scope, &temperatures)?;
+            passing[of.node.index()].growth = self.growth(of, &mut scope, temperatures)?;
         }
         let mut slopes = Vec::new();
-        for id in self.conductor_ids() {
-            let conductor = &self.conductors()[id.index()];
+        for (id, conductor) in self.conductor_ids().zip(self.conductors()) {
             if !conductor.law.is_stream() {
                 continue;
             }
-            let rate = self.rate(id, &mut scope, &temperatures, &mut slopes)?;
-            let (up, down) = if rate < 0.0 {
-                (conductor.to, conductor.from)
-            } else {
-                (conductor.from, conductor.to)
+            let rate = self.rate(id, &mut scope, temperatures, &mut slopes)?;
+            let (up, down) = match rate < 0.0 {
+                true => (conductor.to, conductor.from),
+                false => (conductor.from, conductor.to),
             };
             if let End::Node(node) = up {
                 passing[node.index()].outflow += rate.abs();

@@ -120,7 +120,7 @@ impl<'a> Newton<'a> {
         work: &mut Workspace,
         temperatures: &mut [f64],
     ) -> Result<(), NewtonError> {
-        let start = temperatures.to_vec();
+        let mut start = temperatures.to_vec();
         if self.ready && self.contract(work, temperatures) == Some(true) {
             let far = self.guarded && self.moved(&start, temperatures) > FAR;
             if !far || self.stays(work, &start, temperatures).is_ok() {
@@ -133,9 +133,18 @@ impl<'a> Newton<'a> {
             true => self.damped(work, temperatures),
             false => self.solve(work, temperatures),
         };
-        if let (true, Err(NewtonError::Input(_))) = (self.guarded, &solved) {
-            temperatures.copy_from_slice(&start);
-            solved = self.solve(work, temperatures);
+        match &solved {
+            Err(NewtonError::Input(_)) if self.guarded => {
+                temperatures.copy_from_slice(&start);
+                solved = self.solve(work, temperatures);
+            }
+            // without pressures there are no flows, and without flows no temperatures
+            Err(NewtonError::Singular { .. }) if self.guarded => {
+                self.balance_states(work, &mut start);
+                temperatures.copy_from_slice(&start);
+                solved = self.damped(work, temperatures);
+            }
+            _ => {}
         }
         if self.guarded {
             solved = match solved {

@@ -315,3 +315,73 @@ off = { from = "body", to = "inlet", mcp = "a * 4000 [J/(kg K)]" }
     let exact = 50.0 - 30.0 * (-0.015_f64 * 4000.0 / 2000.0 * 60.0).exp();
     assert!((last - exact).abs() < 1e-4, "{last} is not {exact}");
 }
+
+/// Two branches that meet in a massless node: while their pressures are not known, nothing
+/// determines its temperature.
+const MIXER: &str = r#"
+[default]
+T0 = "20 degC"
+[boundary]
+supply = { T = "20 degC" }
+out = { T = "20 degC" }
+[node]
+one = { C = "100 J/K" }
+two = { C = "100 J/K" }
+mix = { massless = true }
+[junction]
+tank = { p = "0 bar" }
+rail = {}
+end = {}
+[branch]
+pump = { from = "tank", to = "rail", flow = "0.05 kg/s" }
+first = { from = "rail", to = "end", resistance = "1e5 Pa s/m^3", density = "870 kg/m^3" }
+second = { from = "rail", to = "end", resistance = "2e5 Pa s/m^3", density = "870 kg/m^3" }
+back = { from = "end", to = "tank", resistance = "1e5 Pa s/m^3", density = "870 kg/m^3" }
+[advection]
+in1 = { from = "supply", to = "one", mcp = "first * 2000 [J/(kg K)]" }
+in2 = { from = "supply", to = "two", mcp = "second * 2000 [J/(kg K)]" }
+o1 = { from = "one", to = "mix", mcp = "first * 2000 [J/(kg K)]" }
+o2 = { from = "two", to = "mix", mcp = "second * 2000 [J/(kg K)]" }
+[source]
+P1 = { into = "one", P = "100 W" }
+P2 = { into = "two", P = "300 W" }
+[run]
+stop = "4 s"
+"#;
+
+const LEAVES: &str =
+    "[advection.leaves]\nfrom = \"mix\"\nto = \"out\"\nmcp = \"back * 2000 [J/(kg K)]\"\n";
+
+/// Closed form: the channels rise by 1.5 K (1 - exp(-t/1.5 s)) and 9 K (1 - exp(-t/3 s)), and the
+/// mixture has two parts of the first and one of the second.
+#[test]
+fn branches_mix_in_a_massless_node() {
+    let network = network(&format!("{MIXER}{LEAVES}"));
+    let system = ThermalSystem::assemble(&network).unwrap();
+    let times = [0.0, 1.0, 4.0];
+    let solution = Transient::until(Time(4.0)).at(&times).tolerance(1e-6).solve(&system).unwrap();
+    let rise = |of: f64, tau: f64| of * (1.0 - (-4.0 / tau).exp());
+    let exact = (2.0 * rise(1.5, 1.5) + rise(9.0, 3.0)) / 3.0;
+    let mix = network.node("mix").unwrap().index();
+    let last = solution.last().temperatures[mix] - ZERO - 20.0;
+    assert!((last - exact).abs() < 1e-4, "{last} is not {exact}");
+}
+
+/// The streams of a flow network are judged with its pressures, not before.
+#[test]
+fn flows_that_do_not_leave_a_node_are_found() {
+    for (text, nodes) in [(format!("{MIXER}{LEAVES}"), 0), (MIXER.to_owned(), 1)] {
+        let netlist = lptn_netlist::parse("net.toml", &format!("format = 1\n{text}")).unwrap();
+        let streams = |code: &str| code == "network::unbalanced_streams";
+        assert!(!netlist.warnings.iter().any(|w| streams(w.code)), "{:?}", netlist.warnings);
+        let network = &netlist.network;
+        let steady = SteadyState::solve(&ThermalSystem::assemble(network).unwrap(), 0.0).unwrap();
+        let temperatures = [&steady.temperatures[..], &steady.boundary_temperatures].concat();
+        let found = network.unbalanced_flows(0.0, &temperatures).unwrap();
+        assert_eq!(found.len(), nodes, "{found:?}");
+        for passing in found {
+            near(passing.inflow, 100.0, 1e-9);
+            near(passing.outflow.abs() + 1.0, 1.0, 1e-9);
+        }
+    }
+}

@@ -19,6 +19,11 @@ impl Limit {
     /// Reads `0.5K` or `2%` of an option.
     pub(super) fn parse(option: &str, text: &str) -> Result<Self, Failure> {
         let share = text.trim().ends_with('%');
+        if text.trim().parse::<f64>().is_ok() {
+            let message = format!("`{option}` has no unit: `{text}`");
+            let help = format!("write {option} {0}% of the rise, or {option} {0}K", text.trim());
+            return Err(Failure::refused("reduce::max_error", message, help));
+        }
         let wanted = if share { Dimension::NONE } else { Dimension::TEMPERATURE };
         let what = (wanted, "reduce::max_error", "0.5K or 2%");
         let value = input::positive(option, text, what)?.value;

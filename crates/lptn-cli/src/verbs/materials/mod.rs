@@ -45,7 +45,11 @@ fn unknown(name: &str) -> Failure {
     let substances = library::materials().iter().chain(library::fluids());
     let names = substances.map(|record| record.name.clone());
     let names: Vec<String> = names.chain(library::lubricants().map(|oil| oil.name)).collect();
-    let all = || "`lptn materials` lists them all".into();
+    let parts: Vec<String> = names.iter().filter(|own| own.contains(name)).cloned().collect();
+    let all = || match parts.is_empty() {
+        true => "`lptn materials` lists them all".into(),
+        false => format!("its names with `{name}` are `{}`", parts.join("`, `")),
+    };
     Failure::new(Exit::Input, problem.did_you_mean(name, names.iter().map(String::as_str), all))
 }
 
