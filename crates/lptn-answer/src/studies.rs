@@ -59,3 +59,20 @@ impl Studies {
         Err(Failure::new(Exit::Input, problem))
     }
 }
+
+/// A warning for each of these parameters that `--set` or a case gave a value: a study of them
+/// replaces it. `study` is the section and name of the study.
+pub(crate) fn replaced<'n>(
+    input: &Input,
+    (code, study): (&'static str, String),
+    names: impl Iterator<Item = &'n str>,
+) -> Vec<Diagnostic> {
+    let (network, given) = (&input.netlist.network, input.netlist.overrides());
+    let is_given = |name: &&str| network.parameter(name).is_ok_and(|id| given.value(id).is_some());
+    let warning = |name: &str| {
+        let message = format!("the value given for `{name}` has no effect: [{study}] varies it");
+        let help = format!("set it in the netlist without this study, or leave `{name}` out of it");
+        Diagnostic::warning(code, message).help(help)
+    };
+    names.filter(is_given).map(warning).collect()
+}

@@ -267,3 +267,15 @@ fn points_are_read_with_their_mistakes() {
     let gap = bad("omega [rpm],P [W]\n1,2\n2,\n3,6\n").exits(0);
     gap.says("1 of 3 rows have gaps").prints("2 points are too few to choose a law");
 }
+
+/// Standard errors in percent are not left out silently.
+#[test]
+fn errors_in_another_kind_of_unit_are_refused() {
+    for header in ["P_sd [%]", "P_sd [1]", "P_sd [K]", "P_std [%]", "P ± [%]", "P_err [s]"] {
+        let text = POINTS.replace("P_sd [W]", header);
+        let folder = Folder::with("points.csv", &text);
+        let ran = folder.run(&["fit", "law", "points.csv"]).exits(2).says("record::unit");
+        ran.says("give the standard errors of `P` in W, or use --unweighted");
+        folder.run(&["fit", "law", "points.csv", "--unweighted"]).exits(0);
+    }
+}

@@ -265,6 +265,16 @@ fn inputs_that_change_have_no_steady_state() {
     folder.run(&["sweep", "node.toml", "steady"]).exits(2).says("sweep::inputs_change");
 }
 
+/// A value that the axes replace is a warning, other values are not.
+#[test]
+fn a_given_value_that_an_axis_replaces_is_a_warning() {
+    let folder = Folder::with("node.toml", NODE);
+    let sweep = |set: &str| folder.run(&["sweep", "node.toml", "steady", "--set", set]).exits(0);
+    sweep("G=3W/K").says("sweep::replaced").says("`G` has no effect: [sweep.steady] varies it");
+    let other = sweep("share=0.4");
+    assert!(!other.err.contains("sweep::replaced"), "{}", other.err);
+}
+
 /// A power that is on for half of a cycle: with h = (half a cycle) G/C the top of the settled cycle
 /// is T_air + P/G (1 - exp(-h)) / (1 - exp(-2 h)), and the least exp(-h) of that rise.
 #[test]

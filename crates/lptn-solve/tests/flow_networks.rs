@@ -316,6 +316,24 @@ off = { from = "body", to = "inlet", mcp = "a * 4000 [J/(kg K)]" }
     assert!((last - exact).abs() < 1e-4, "{last} is not {exact}");
 }
 
+/// By hand: a pump of p = 1 bar - a V between given pressures, which pumps, is overcome, and runs out.
+#[test]
+fn a_pump_returns_no_power() {
+    for (rail, volume, power) in [(0.5_f64, 0.0025, 250.0), (2.0, -0.005, 0.0), (-0.5, 0.0075, 0.0)]
+    {
+        let text = format!(
+            "{BODY}[junction]\ntank = {{ p = \"0 bar\" }}\nrail = {{ p = \"{rail} bar\" }}\nmiddle = {{}}\n\
+             [branch]\npump = {{ from = \"tank\", to = \"rail\", p_0 = \"1 bar\", a = \"2e7 Pa s/m^3\", \
+             efficiency = 0.5, density = \"1000 kg/m^3\" }}\n\
+             one = {{ from = \"tank\", to = \"middle\", flow = \"dp * 1 [kg/(s Pa)]\" }}\n\
+             other = {{ from = \"middle\", to = \"rail\", flow = \"dp * 1 [kg/(s Pa)]\" }}\n"
+        );
+        let found = steady(&text, &["pump.volume_flow", "pump.power"]);
+        near(found[0], volume, 1e-9);
+        assert!((found[1] - power).abs() <= 1e-6, "{} is not {power}", found[1]);
+    }
+}
+
 /// Two branches that meet in a massless node: while their pressures are not known, nothing
 /// determines its temperature.
 const MIXER: &str = r#"

@@ -35,7 +35,7 @@ use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::input::Input;
 use crate::listener::Listener;
-use crate::studies::Studies;
+use crate::studies::{self, Studies};
 
 /// Asks for values of parameters, or for parts, that keep the requirements of a `[size.NAME]`.
 #[derive(Clone, Debug, Default)]
@@ -231,6 +231,10 @@ impl Answer for SizeAnswer {
     }
 
     fn doubts(&self) -> Vec<Diagnostic> {
-        [self.asked().input.netlist.warnings.as_slice(), &self.beside()].concat()
+        let asked = self.asked();
+        let names = asked.study.varied.iter().map(|one| one.name.as_str());
+        let study = ("size::replaced", format!("size.{}", asked.study.name));
+        let replaced = studies::replaced(&asked.input, study, names);
+        [asked.input.netlist.warnings.as_slice(), &self.beside(), &replaced].concat()
     }
 }

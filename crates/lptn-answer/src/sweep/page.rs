@@ -18,6 +18,7 @@ use super::tally::{Count, Tally};
 use crate::about::{self, Known};
 use crate::answer::Answer;
 use crate::exit::Exit;
+use crate::studies;
 use crate::words::{MOST_NODES, count, some_of, spaced};
 
 /// Digits of a value that is shown.
@@ -55,7 +56,10 @@ impl Answer for SweepAnswer {
     }
 
     fn doubts(&self) -> Vec<Diagnostic> {
-        self.asked.input.netlist.warnings.clone()
+        let names = self.axes().iter().map(|axis| axis.name.as_str());
+        let study = ("sweep::replaced", format!("sweep.{}", self.asked.study().name));
+        let replaced = studies::replaced(&self.asked.input, study, names);
+        [self.asked.input.netlist.warnings.as_slice(), &replaced].concat()
     }
 
     fn exit(&self) -> Exit {

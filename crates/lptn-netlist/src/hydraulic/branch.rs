@@ -311,11 +311,12 @@ impl Reading<'_, '_> {
         self.out.value("volume_flow", VOLUME_FLOW, format!("{h} / {h}.density"));
     }
 
-    /// A pump takes the power of its flow and pressure, over its efficiency.
+    /// A pump takes the power of its flow and pressure, over its efficiency; none if the flow drives
+    /// it: no power comes back.
     fn pump(&mut self, volume: String) {
         let h = self.out.here;
         self.volume(volume);
-        let power = format!("-{h}.dp * {h}.volume_flow / {h}.efficiency");
+        let power = format!("max(-{h}.dp * {h}.volume_flow, 0 [W]) / {h}.efficiency");
         self.out.value("power", Type::of(Dimension::POWER), power);
     }
 }

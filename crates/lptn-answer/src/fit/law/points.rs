@@ -34,7 +34,7 @@ struct Lookup<'a> {
 }
 
 /// The endings of names of standard errors.
-const ERRORS: [&str; 4] = ["_sd", " ±", "_error", "±"];
+const ERRORS: [&str; 7] = ["_sd", " ±", "_error", "±", "_std", "_sigma", "_err"];
 
 fn is_error(name: &str) -> bool {
     ERRORS.iter().any(|ending| name.ends_with(ending))
@@ -124,10 +124,20 @@ impl<'a> Lookup<'a> {
     }
 
     /// The standard errors of a column.
-    fn errors(&self, column: &RecordColumn) -> Option<&'a RecordColumn> {
+    ///
+    /// # Errors
+    /// Standard errors in another kind of unit, such as percent.
+    fn errors(&self, column: &RecordColumn) -> Result<Option<&'a RecordColumn>, Failure> {
         let named = |ending: &&str| self.sheet.column(&format!("{}{ending}", column.name));
-        let found = ERRORS.iter().find_map(named)?;
-        (found.unit.ty == column.unit.ty).then_some(found)
+        let Some(found) = ERRORS.iter().find_map(named) else { return Ok(None) };
+        if found.unit.ty == column.unit.ty {
+            return Ok(Some(found));
+        }
+        let (own, name, unit) = (&found.name, &column.name, &column.unit.text);
+        let message = format!("column `{own}` is in {}, but `{name}` in {unit}", found.unit.text);
+        let problem = Diagnostic::error("record::unit", message).at(found.span.clone(), "");
+        let help = format!("give the standard errors of `{name}` in {unit}, or use --unweighted");
+        Err(self.refused(problem.help(help)))
     }
 }
 
@@ -142,12 +152,17 @@ pub(super) fn read(path: &Path, question: &FitLawQuestion) -> Result<Data, Failu
     )?;
     let power =
         lookup.needed(("--power", question.power.as_deref()), "the power", Dimension::POWER)?;
-    let sigma = if question.unweighted { None } else { lookup.errors(power) };
+    let sigma = if question.unweighted { None } else { lookup.errors(power)? };
     let rise = lookup.optional(question.rise.as_deref(), Dimension::TEMPERATURE)?;
     let time_constant = lookup.optional(question.time_constant.as_deref(), Dimension::TIME)?;
     let both = rise.zip(time_constant);
-    let sigmas =
-        both.and_then(|(rise, time)| Some([lookup.errors(rise)?, lookup.errors(time)?, sigma?]));
+    let sigmas = match (both, sigma) {
+        (Some((rise, time)), Some(sigma)) => {
+            let errors = (lookup.errors(rise)?, lookup.errors(time)?);
+            errors.0.zip(errors.1).map(|(rise, time)| [rise, time, sigma])
+        }
+        _ => None,
+    };
     let mut used = vec![Some(speed), Some(power), sigma, both.map(|b| b.0), both.map(|b| b.1)];
     used.extend(sigmas.iter().flatten().map(|column| Some(*column)));
     let complete = |row: &usize| used.iter().flatten().all(|column| !column.values[*row].is_nan());
