@@ -31,11 +31,7 @@ pub fn not_bounded(network: &Network, why: Option<&Unbounded>) -> Option<String>
              smaller --tolerance",
             significant(*steps, 1)
         ),
-        Unbounded::Grows { factor } => format!(
-            "errors grow by up to a factor of {}, as heat rises faster with temperature than it is \
-             removed; compare with a smaller --tolerance",
-            significant(*factor, 1)
-        ),
+        Unbounded::Grows { factor } => grows(network, *factor),
         Unbounded::Unresolved { at } => format!(
             "a step at {} s passes a bend over temperature that could not be resolved; compare \
              with a smaller --tolerance",
@@ -50,6 +46,17 @@ pub fn not_bounded(network: &Network, why: Option<&Unbounded>) -> Option<String>
         }
     };
     Some(format!("error not bounded by the tolerance: it adds up, because {why}"))
+}
+
+/// Errors that grow, with the reasons that the network can have.
+fn grows(network: &Network, factor: f64) -> String {
+    let adds = network.states().iter().any(|state| !state.balanced);
+    let state = if adds { "a state adds errors up, or " } else { "" };
+    format!(
+        "errors grow by up to a factor of {}, as {state}heat rises faster with temperature than it \
+         is removed; compare with a smaller --tolerance",
+        significant(factor, 1)
+    )
 }
 
 /// A switch that the error of the run decides, as a sentence.

@@ -7,7 +7,7 @@ use lptn_network::{
     Acts, AfterEnd, Context, Course, End, HeatCapacity, Network, NetworkBuilder, Path, Temperature,
     Thermostat, Time,
 };
-use lptn_solve::{ControlState, Periodic, State, Transient};
+use lptn_solve::{ControlState, Periodic, PeriodicError, State, Transient};
 use lptn_units::{Dimension, Type};
 
 const AMBIENT: f64 = 293.15;
@@ -90,4 +90,28 @@ fn dwell_times_that_do_not_fit_into_a_cycle_are_no_cycle() {
     let error =
         Periodic::find(&system, &Transient::until(Time(PERIOD)).tolerance(1e-4)).unwrap_err();
     assert_eq!(error.code(), "periodic::switches");
+}
+
+/// A state that adds up a heat never repeats: 10 K and 1 W/K for 60 s are 600 J a cycle.
+#[test]
+fn a_state_that_adds_up_is_named() {
+    let text = r#"
+format = 1
+[node]
+a = { C = "100 J/K", T0 = "20 degC" }
+[boundary]
+air = { T = "20 degC" }
+[resistor]
+r = { from = "a", to = "air", R = "1 K/W" }
+[source]
+h = { into = "a", P = "10 W" }
+[state]
+e = { rate = "1 [W/K] * (a.T - air.T)", start = "0 J", size = "100 J" }
+"#;
+    let network = lptn_netlist::parse("net.toml", text).unwrap().network;
+    let system = ThermalSystem::assemble(&network).unwrap();
+    let error = Periodic::find(&system, &Transient::until(Time(60.0)).tolerance(1e-4)).unwrap_err();
+    let PeriodicError::NotFound { name, change, unit, .. } = &error else { panic!("{error}") };
+    assert_eq!((name.as_str(), unit.as_str()), ("e", "J"));
+    assert!((change - 600.0).abs() < 6.0, "{error}");
 }

@@ -35,11 +35,12 @@ pub enum PeriodicError {
     Sampled { name: String } = "periodic::sampled",
         format!("the periodic steady state of a network with the sampled `{name}` is not available"),
         help "use `lptn run` until two cycles are alike, or a controller without `sample`";
-    /// The cycles do not reach the same state; the smallest difference in K between the start of a
-    /// cycle and its end.
-    NotFound { cycles: usize, residual: f64 } = "periodic::not_found",
+    /// The cycles do not reach the same state: the node or state that the last one changed most,
+    /// and its change in this unit.
+    NotFound { cycles: usize, name: String, change: f64, unit: String } = "periodic::not_found",
         format!(
-            "{cycles} cycles reached no periodic state; the best one was off by {residual:.1e} K"
+            "{cycles} cycles reached no periodic state; the last one changed `{name}` by {} {unit}",
+            format_number(format!("{change:.2e}").parse().unwrap_or(*change))
         ),
         help "simulate some cycles one after the other: `lptn run`", class Class::Numbers;
     /// No two cycles in a row switch alike.

@@ -81,8 +81,6 @@ pub(super) struct Search<'a, 'b> {
     tolerance: f64,
     /// The best cycle at the present tolerance.
     best: Option<Shot>,
-    /// The smallest residual of all.
-    least: f64,
     /// Cycles at the present tolerance since the residual last shrank by half.
     idle: usize,
     /// The last that was known.
@@ -122,7 +120,6 @@ impl<'a, 'b> Search<'a, 'b> {
             secants,
             tolerance,
             best: None,
-            least: f64::INFINITY,
             idle: 0,
             multiplier: None,
             frozen: 0.0,
@@ -219,7 +216,23 @@ impl<'a, 'b> Search<'a, 'b> {
         if !self.cycles.repeats {
             return Err(PeriodicError::Switches { cycles: self.cycles.count });
         }
-        Err(PeriodicError::NotFound { cycles: self.cycles.count, residual: self.least })
+        Err(self.not_found())
+    }
+
+    /// The error of a search that ends: the unknown that the last cycle changed most.
+    fn not_found(&self) -> PeriodicError {
+        let (system, cycles) = (self.cycles.system, self.cycles.count);
+        let changes = self.last.iter().flat_map(|shot| shot.start.iter().zip(&shot.end));
+        let most = changes.map(|(start, end)| end - start).enumerate();
+        let most = most.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+        let (place, change) = most.unwrap_or((0, f64::NAN));
+        let node = system.states()[place];
+        let (change, unit) = match system.network().state_at(node) {
+            Some(state) => (state.value(change), state.ty.dimension.si_unit()),
+            None => (change, "K".to_owned()),
+        };
+        let name = system.network().nodes()[node.index()].name.clone();
+        PeriodicError::NotFound { cycles, name, change, unit }
     }
 
     /// Integrates a cycle. If it begins at a state that no cycle reached, it may not be solvable:
@@ -237,7 +250,6 @@ impl<'a, 'b> Search<'a, 'b> {
     fn take(&mut self, shot: Shot) -> Verdict {
         let residual = shot.residual();
         self.last = Some(shot.clone());
-        self.least = self.least.min(residual);
         let best = self.best.as_ref().map_or(f64::INFINITY, Shot::residual);
         self.idle = if residual < 0.5 * best { 0 } else { self.idle + 1 };
         let noise = ERROR * shot.noise;
@@ -278,8 +290,7 @@ impl<'a, 'b> Search<'a, 'b> {
                 (self.best, self.reach) = (Some(last), REACH);
             }
         }
-        let none = PeriodicError::NotFound { cycles: self.cycles.count, residual: self.least };
-        let best = self.best.as_ref().ok_or(none)?;
+        let best = self.best.as_ref().ok_or_else(|| self.not_found())?;
         let rho = self.multiplier.unwrap_or(UNKNOWN).min(SLOWEST);
         let next = self.secants.next(best, self.reach * best.residual() / (1.0 - rho));
         if let (Some(start), Some(last)) = (&next, &self.last)
