@@ -206,3 +206,14 @@ fn times_are_shown_in_the_unit_that_is_asked_for() {
     table.prints("  0.4167 h  peak").prints("heat over 0.4167 h:");
     folder.run(&["run", "gearbox.toml", "--time-unit", "week"]).exits(2).says("s, min, h, d");
 }
+
+/// A number without a unit gets the unit of the netlist, not that of SI.
+#[test]
+fn a_bare_number_gets_the_unit_of_its_parameter() {
+    let text =
+        LUMP.to_owned() + "\n[param]\nspeed = \"7000 rpm\"\nshare = 0.5\nflow = \"3 l/min\"\n";
+    let folder = Folder::with("lump.toml", &text);
+    for (set, help) in [("speed=3000", "write \"3000 rpm\""), ("flow= 2", "write \"2 l/min\"")] {
+        folder.run(&["run", "lump.toml", "--set", set]).exits(2).says(help);
+    }
+}

@@ -203,7 +203,8 @@ impl Netlist {
                         "`--set` takes a number or a quantity, not an expression: `omega=5000rpm`",
                     );
                 }
-                problem.help(error.help())
+                let own = self.in_its_unit(parameter, value, error);
+                problem.help(own.or_else(|| error.help()))
             }
         }
     }

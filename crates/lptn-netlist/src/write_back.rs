@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use lptn_data::FileId;
 use lptn_network::{Field, Item, ParameterId};
-use lptn_units::{Unit, written_quantity};
+use lptn_units::{Unit, UnitError, UnitErrorKind, written_quantity};
 
 use crate::netlist::Netlist;
 
@@ -22,6 +22,20 @@ pub struct WrittenNumber {
 }
 
 impl Netlist {
+    /// The help for a number without a unit: the unit that the parameter has in the netlist.
+    pub(crate) fn in_its_unit(
+        &self,
+        parameter: &str,
+        value: &str,
+        error: &UnitError,
+    ) -> Option<String> {
+        let bare =
+            matches!(&error.kind, UnitErrorKind::BareNumber { wanted, .. } if !wanted.absolute);
+        let id = self.network.parameter(parameter).ok().filter(|_| bare)?;
+        let unit = self.written_number(id)?.unit.text;
+        Some(format!("write \"{} {unit}\"", value.trim()))
+    }
+
     /// The place and the unit of a parameter's number in the file; `None` if its value is an
     /// expression or a string with escapes.
     pub fn written_number(&self, id: ParameterId) -> Option<WrittenNumber> {
