@@ -92,7 +92,8 @@ fn dwell_times_that_do_not_fit_into_a_cycle_are_no_cycle() {
     assert_eq!(error.code(), "periodic::switches");
 }
 
-/// A state that adds up a heat never repeats: 10 K and 1 W/K for 60 s are 600 J a cycle.
+/// A state that adds up a heat never repeats: 10 K and 1 W/K for 60 s are 600 J a cycle, and up to
+/// 100 J/K more for each K by which the body is off at the start of the last one.
 #[test]
 fn a_state_that_adds_up_is_named() {
     let text = r#"
@@ -113,5 +114,5 @@ e = { rate = "1 [W/K] * (a.T - air.T)", start = "0 J", size = "100 J" }
     let error = Periodic::find(&system, &Transient::until(Time(60.0)).tolerance(1e-4)).unwrap_err();
     let PeriodicError::NotFound { name, change, unit, .. } = &error else { panic!("{error}") };
     assert_eq!((name.as_str(), unit.as_str()), ("e", "J"));
-    assert!((change - 600.0).abs() < 6.0, "{error}");
+    assert!((change - 600.0).abs() < 200.0, "{error}");
 }

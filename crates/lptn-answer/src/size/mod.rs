@@ -192,7 +192,12 @@ impl SizeAnswer {
 
     /// Doubts in the proof, which a table has as notes.
     pub fn beside(&self) -> Vec<Diagnostic> {
-        self.asked().kept.doubts()
+        let asked = self.asked();
+        let names = asked.study.varied.iter().map(|one| one.name.as_str());
+        let study = ("size::replaced", format!("size.{}", asked.study.name));
+        let mut doubts = asked.kept.doubts();
+        doubts.extend(studies::replaced(&asked.input, study, names));
+        doubts
     }
 
     /// The netlist with the values in it, read again and solved: it keeps every requirement.
@@ -231,10 +236,6 @@ impl Answer for SizeAnswer {
     }
 
     fn doubts(&self) -> Vec<Diagnostic> {
-        let asked = self.asked();
-        let names = asked.study.varied.iter().map(|one| one.name.as_str());
-        let study = ("size::replaced", format!("size.{}", asked.study.name));
-        let replaced = studies::replaced(&asked.input, study, names);
-        [asked.input.netlist.warnings.as_slice(), &self.beside(), &replaced].concat()
+        [self.asked().input.netlist.warnings.as_slice(), &self.beside()].concat()
     }
 }

@@ -22,7 +22,7 @@ use crate::example;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::input::{self, Input};
-use crate::studies::Studies;
+use crate::studies::{self, Studies};
 
 const STUDIES: Studies = Studies {
     section: "sweep",
@@ -142,6 +142,14 @@ impl SweepAsked {
     /// The study.
     pub fn study(&self) -> &SweepStudy {
         self.task.study()
+    }
+
+    /// The warnings of the netlist, and those about given values that the axes replace.
+    pub fn doubts(&self) -> Vec<Diagnostic> {
+        let names = self.columns.iter().take(self.axes()).map(|axis| axis.name.as_str());
+        let study = ("sweep::replaced", format!("sweep.{}", self.study().name));
+        let replaced = studies::replaced(&self.input, study, names);
+        [self.input.netlist.warnings.as_slice(), &replaced].concat()
     }
 
     /// The number of axes.

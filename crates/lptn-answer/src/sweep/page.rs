@@ -18,7 +18,6 @@ use super::tally::{Count, Tally};
 use crate::about::{self, Known};
 use crate::answer::Answer;
 use crate::exit::Exit;
-use crate::studies;
 use crate::words::{MOST_NODES, count, some_of, spaced};
 
 /// Digits of a value that is shown.
@@ -56,10 +55,7 @@ impl Answer for SweepAnswer {
     }
 
     fn doubts(&self) -> Vec<Diagnostic> {
-        let names = self.axes().iter().map(|axis| axis.name.as_str());
-        let study = ("sweep::replaced", format!("sweep.{}", self.asked.study().name));
-        let replaced = studies::replaced(&self.asked.input, study, names);
-        [self.asked.input.netlist.warnings.as_slice(), &replaced].concat()
+        self.asked.doubts()
     }
 
     fn exit(&self) -> Exit {
