@@ -1,7 +1,7 @@
 //! The trust in an answer.
 
 use lptn_network::{InputError, LimitId, Network, Passing, ReportId};
-use lptn_solve::{Beyond, Others, OutOfRange, Solution, SteadyState, Unbounded};
+use lptn_solve::{Beyond, Others, OutOfRange, Snapshot, Solution, SteadyState, Unbounded};
 
 /// Limits on the trust in numbers that a reader has to know. None of them is an error: an energy
 /// balance that does not close is one, and its numbers are never returned.
@@ -81,7 +81,7 @@ impl Trust {
             unresolved: Unresolved::all_of(solution),
             others: Others::None,
             grows: None,
-            unbalanced: flows_of_run(solution).unwrap_or_default(),
+            unbalanced: flows_of_run(solution),
         }
     }
 
@@ -93,22 +93,21 @@ impl Trust {
             unresolved: Vec::new(),
             others: steady.others.clone(),
             grows: None,
-            unbalanced: flows_of_steady(network, steady)?,
+            unbalanced: flows(network, &steady.state)?,
         })
     }
 }
 
-/// [`Network::unbalanced_flows`] at the end of a run.
-fn flows_of_run(solution: &Solution) -> Result<Vec<Passing>, InputError> {
-    let (network, last) = (solution.network(), solution.last());
-    let mut scope = network.evaluation();
-    scope.set_time(last.time, last.time);
-    let mut boundaries = vec![f64::NAN; network.boundaries().len()];
-    network.boundary_temperatures(&mut scope, &mut boundaries)?;
-    network.unbalanced_flows(last.time, &[&last.temperatures[..], &boundaries].concat())
+/// [`Network::unbalanced_flows`] of a steady state, or at the end of a run.
+fn flows(network: &Network, at: &Snapshot) -> Result<Vec<Passing>, InputError> {
+    let temperatures = [&at.temperatures[..], &at.boundary_temperatures].concat();
+    network.unbalanced_flows(&mut at.evaluation(network), &temperatures)
 }
 
-fn flows_of_steady(network: &Network, steady: &SteadyState) -> Result<Vec<Passing>, InputError> {
-    let temperatures = [&steady.temperatures[..], &steady.boundary_temperatures].concat();
-    network.unbalanced_flows(steady.time, &temperatures)
+/// [`flows`] at the last row; none if a value fails there, or not every node was recorded.
+fn flows_of_run(solution: &Solution) -> Vec<Passing> {
+    let network = solution.network();
+    let last = solution.times().len().checked_sub(1).filter(|_| network.has_flows());
+    let found = last.and_then(|row| flows(network, &solution.snapshot(row)?).ok());
+    found.unwrap_or_default()
 }

@@ -15,9 +15,6 @@ use subject::{Subject, Way};
 /// A duration of measurements in s without a `[run]`.
 const USUAL_DURATION: f64 = 1800.0;
 
-/// Names of a new signal: the first that no parameter has.
-const NEW_SIGNALS: [&str; 2] = ["P_disp", "P_unknown"];
-
 /// Samples of a planned measurement.
 const SAMPLES: f64 = 300.0;
 
@@ -71,14 +68,14 @@ pub(crate) fn plan(input: &Input) -> String {
 /// An `[infer.NAME]`, with a signal if the file has none; the record is still to be measured.
 pub(crate) fn infer(input: &Input) -> String {
     let network = &input.netlist.network;
-    let is_free = |name: &&&str| network.parameter(name).is_err();
-    let free = NEW_SIGNALS.iter().find(is_free).copied().unwrap_or_default();
     let (before, name) = match network.signals().first() {
-        Some(signal) => (String::new(), signal.name.as_str()),
-        None => (
-            format!("[signal]\n{free} = \"50 W\"    # and use it in a source: P = \"{free}\"\n\n"),
-            free,
-        ),
+        Some(signal) => (String::new(), signal.name.clone()),
+        None => {
+            let mut names = (1..).map(|k| format!("P_{k}"));
+            let free = names.find(|name| network.parameter(name).is_err()).unwrap_or_default();
+            let note = format!("    # and use it in a source: P = \"{free}\"");
+            (format!("[signal]\n{free} = \"50 W\"{note}\n\n"), free)
+        }
     };
     let record = record(&Subject::of(input).node);
     format!("{before}[infer.power]\n{record}\nsigma = \"0.1 K\"\nfind = [\"{name}\"]")

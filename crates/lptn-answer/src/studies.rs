@@ -1,5 +1,7 @@
 //! The studies of a netlist, found by their name.
 
+use std::sync::Arc;
+
 use lptn_netlist::Diagnostic;
 
 use crate::exit::Exit;
@@ -60,13 +62,13 @@ impl Studies {
     }
 }
 
-/// A warning for each of these parameters that `--set` or a case gave a value: a study of them
-/// replaces it. `study` is the section and name of the study.
-pub(crate) fn replaced<'n>(
-    input: &Input,
-    (code, study): (&'static str, String),
+/// The input with a warning for each of these parameters that `--set`, a case or a posterior gave a
+/// value: a study of them replaces it. `study` is the section and name of the study.
+pub(crate) fn with_replaced<'n>(
+    mut input: Arc<Input>,
+    (code, study): (&'static str, &str),
     names: impl Iterator<Item = &'n str>,
-) -> Vec<Diagnostic> {
+) -> Arc<Input> {
     let (network, given) = (&input.netlist.network, input.netlist.overrides());
     let is_given = |name: &&str| network.parameter(name).is_ok_and(|id| given.value(id).is_some());
     let warning = |name: &str| {
@@ -74,5 +76,9 @@ pub(crate) fn replaced<'n>(
         let help = format!("set it in the netlist without this study, or leave `{name}` out of it");
         Diagnostic::warning(code, message).help(help)
     };
-    names.filter(is_given).map(warning).collect()
+    let found: Vec<Diagnostic> = names.filter(is_given).map(warning).collect();
+    if !found.is_empty() {
+        Arc::make_mut(&mut input).netlist.warnings.extend(found);
+    }
+    input
 }

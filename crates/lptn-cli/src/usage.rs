@@ -68,7 +68,7 @@ fn no_such_option(error: &clap::Error) -> Option<Diagnostic> {
 /// The word of which the parser names a letter only: `-set`, for `-s`.
 fn one_dash(option: &str) -> Option<String> {
     let letter = option.strip_prefix('-').filter(|letter| letter.len() == 1)?;
-    let own: Vec<String> = longs(&verb_parser()?).chain(longs(&Args::command())).collect();
+    let own = own_options()?;
     let is = |word: &String| word.contains(letter) && own.contains(&format!("-{word}"));
     arguments::words().into_iter().find(is)
 }
@@ -85,10 +85,15 @@ fn lists_options() -> String {
 
 /// The option of the verb that is nearly this one.
 fn near_option(option: &str) -> Option<String> {
-    let own: Vec<String> = longs(&verb_parser()?).chain(longs(&Args::command())).collect();
+    let own = own_options()?;
     let twice = format!("-{option}");
     let near = || suggest(option, own.iter().map(String::as_str));
     own.iter().find(|own| **own == twice).map(String::as_str).or_else(near).map(str::to_owned)
+}
+
+/// The options of the verb of the command line, and those of all verbs.
+fn own_options() -> Option<Vec<String>> {
+    Some(longs(&verb_parser()?).chain(longs(&Args::command())).collect())
 }
 
 /// The parser of the verb of the command line.

@@ -249,3 +249,14 @@ fn less_of_a_maximum_is_not_always_better() {
     let folder = Folder::with("x.toml", text);
     folder.run(&["size", "x.toml"]).exits(0).prints("less is not always better: below G = 4 W/K");
 }
+
+/// A given value of the sized parameter has no effect, and every form of the answer says so.
+#[test]
+fn a_given_value_that_is_sized_is_a_warning() {
+    let folder = Folder::with("fan.toml", FAN);
+    folder.run(&["size", "fan.toml", "--set", "G=3W/K"]).says("size::replaced");
+    let json = folder.json("size fan.toml --set G=3W/K").json();
+    assert_eq!(json["warnings"][0]["code"], "size::replaced");
+    let other = folder.run(&["size", "fan.toml", "--set", "P=90W"]);
+    assert!(!other.err.contains("size::replaced"), "{}", other.err);
+}

@@ -273,6 +273,8 @@ fn a_given_value_that_an_axis_replaces_is_a_warning() {
     sweep("G=3W/K").says("sweep::replaced").says("`G` has no effect: [sweep.steady] varies it");
     let other = sweep("share=0.4");
     assert!(!other.err.contains("sweep::replaced"), "{}", other.err);
+    let json = folder.json("sweep node.toml steady --no-files --set G=3W/K").json();
+    assert_eq!(json["warnings"][0]["code"], "sweep::replaced");
 }
 
 /// A power that is on for half of a cycle: with h = (half a cycle) G/C the top of the settled cycle

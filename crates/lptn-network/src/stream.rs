@@ -95,7 +95,9 @@ impl Network {
         for state in self.states().iter().filter(|state| !state.balanced) {
             temperatures[state.node.index()] = self.initial(state.node);
         }
-        let mut passing = self.passing(time, &temperatures)?;
+        let mut scope = self.evaluation();
+        scope.set_time(time, time);
+        let mut passing = self.passing(&mut scope, &temperatures)?;
         let solved = self.nodes_of_flows();
         passing.retain(|p| !solved.contains(&p.node));
         Ok(passing)
@@ -103,20 +105,20 @@ impl Network {
 
     /// The nodes that flows of a flow network pass, and whose inflow and outflow differ by more than
     /// a tenth: more than the specific heat of one fluid usually varies. `temperatures` are those of
-    /// all nodes and boundaries in K, with the pressures, at `time` in s.
+    /// all nodes and boundaries in K, with the pressures; `scope` has the time and what is on.
     ///
     /// # Errors
     /// [`InputError`] if a flow has no value.
     pub fn unbalanced_flows(
         &self,
-        time: f64,
+        scope: &mut crate::Evaluation,
         temperatures: &[f64],
     ) -> Result<Vec<Passing>, InputError> {
         let solved = self.nodes_of_flows();
         if solved.is_empty() {
             return Ok(Vec::new());
         }
-        let mut passing = self.passing(time, temperatures)?;
+        let mut passing = self.passing(scope, temperatures)?;
         let differ = |p: &Passing| {
             (p.inflow - p.outflow - p.growth).abs() > FLUID_VARIES * p.inflow.max(p.outflow)
         };
@@ -124,13 +126,18 @@ impl Network {
         Ok(passing)
     }
 
+    /// True if pressures of a flow network are among the unknowns.
+    pub fn has_flows(&self) -> bool {
+        self.states().iter().any(|state| state.balanced)
+    }
+
     /// The nodes at the ends of streams that read a pressure.
     fn nodes_of_flows(&self) -> Vec<NodeId> {
+        if !self.has_flows() {
+            return Vec::new(); // streams of large networks take time to look at
+        }
         let balanced = self.states().iter().filter(|state| state.balanced);
         let pressures: Vec<usize> = balanced.map(|state| state.node.index()).collect();
-        if pressures.is_empty() {
-            return Vec::new();
-        }
         let reads = |id: &ConductorId| {
             let variables = self.conductor_variables(*id);
             variables.iter().any(|&vertex| pressures.contains(&(vertex as usize)))
@@ -141,22 +148,23 @@ impl Network {
         ends.filter_map(|end| if let End::Node(node) = end { Some(node) } else { None }).collect()
     }
 
-    /// The streams that pass each node, at `time` in s and these temperatures of all nodes and
-    /// boundaries in K.
-    fn passing(&self, time: f64, temperatures: &[f64]) -> Result<Vec<Passing>, InputError> {
-        let mut scope = self.evaluation();
-        scope.set_time(time, time);
+    /// The streams that pass each node, at these temperatures of all nodes and boundaries in K.
+    fn passing(
+        &self,
+        scope: &mut crate::Evaluation,
+        temperatures: &[f64],
+    ) -> Result<Vec<Passing>, InputError> {
         let none = |node| Passing { node, inflow: 0.0, outflow: 0.0, growth: 0.0 };
         let mut passing: Vec<Passing> = self.node_ids().map(none).collect();
         for of in self.state_capacities() {
-            passing[of.node.index()].growth = self.growth(of, &mut scope, temperatures)?;
+            passing[of.node.index()].growth = self.growth(of, scope, temperatures)?;
         }
         let mut slopes = Vec::new();
         for (id, conductor) in self.conductor_ids().zip(self.conductors()) {
             if !conductor.law.is_stream() {
                 continue;
             }
-            let rate = self.rate(id, &mut scope, temperatures, &mut slopes)?;
+            let rate = self.rate(id, scope, temperatures, &mut slopes)?;
             let (up, down) = match rate < 0.0 {
                 true => (conductor.to, conductor.from),
                 false => (conductor.from, conductor.to),

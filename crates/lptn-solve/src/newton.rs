@@ -138,7 +138,7 @@ impl<'a> Newton<'a> {
                 temperatures.copy_from_slice(&start);
                 solved = self.solve(work, temperatures);
             }
-            // without pressures there are no flows, and without flows no temperatures
+            // pressures come first: they determine flows, and flows determine temperatures
             Err(NewtonError::Singular { .. }) if self.guarded => {
                 self.balance_states(work, &mut start);
                 temperatures.copy_from_slice(&start);

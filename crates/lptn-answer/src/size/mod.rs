@@ -76,9 +76,12 @@ impl SizeQuestion {
                 write::possible(&input, parameter(&input, study, name)?)?;
             }
         }
+        let (study, section) = (study.clone(), format!("size.{}", study.name));
+        let names = study.varied.iter().map(|one| one.name.as_str());
+        let input = studies::with_replaced(input, ("size::replaced", &section), names);
         listener.warn(&input.netlist.files, &input.netlist.warnings);
-        moments::check_period(&input, study)?;
-        let (kept, study) = (Kept::of(&input.netlist, study), study.clone());
+        moments::check_period(&input, &study)?;
+        let kept = Kept::of(&input.netlist, &study);
         let asked = Asked { input, study, kept };
         let threads = self.threads.unwrap_or_else(available_threads);
         let mut answer = SizeAnswer(match asked.study.single() {
@@ -192,12 +195,7 @@ impl SizeAnswer {
 
     /// Doubts in the proof, which a table has as notes.
     pub fn beside(&self) -> Vec<Diagnostic> {
-        let asked = self.asked();
-        let names = asked.study.varied.iter().map(|one| one.name.as_str());
-        let study = ("size::replaced", format!("size.{}", asked.study.name));
-        let mut doubts = asked.kept.doubts();
-        doubts.extend(studies::replaced(&asked.input, study, names));
-        doubts
+        self.asked().kept.doubts()
     }
 
     /// The netlist with the values in it, read again and solved: it keeps every requirement.

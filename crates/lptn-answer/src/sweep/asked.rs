@@ -134,6 +134,9 @@ impl SweepQuestion {
             margins.map(|ty| Column { name: MARGIN.to_owned(), unit: unit_of(*ty, &unit) }),
         );
         let ranged = !netlist.network.ranged().is_empty();
+        let (section, axes) = (format!("sweep.{}", study.name), task.cases().parameters().len());
+        let names = columns.iter().take(axes).map(|axis| axis.name.as_str());
+        let input = studies::with_replaced(input, ("sweep::replaced", &section), names);
         Ok(SweepAsked { task, columns, shard: self.shard, range, ranged, input })
     }
 }
@@ -142,14 +145,6 @@ impl SweepAsked {
     /// The study.
     pub fn study(&self) -> &SweepStudy {
         self.task.study()
-    }
-
-    /// The warnings of the netlist, and those about given values that the axes replace.
-    pub fn doubts(&self) -> Vec<Diagnostic> {
-        let names = self.columns.iter().take(self.axes()).map(|axis| axis.name.as_str());
-        let study = ("sweep::replaced", format!("sweep.{}", self.study().name));
-        let replaced = studies::replaced(&self.input, study, names);
-        [self.input.netlist.warnings.as_slice(), &replaced].concat()
     }
 
     /// The number of axes.

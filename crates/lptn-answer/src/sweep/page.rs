@@ -55,7 +55,7 @@ impl Answer for SweepAnswer {
     }
 
     fn doubts(&self) -> Vec<Diagnostic> {
-        self.asked.doubts()
+        self.asked.input.netlist.warnings.clone()
     }
 
     fn exit(&self) -> Exit {

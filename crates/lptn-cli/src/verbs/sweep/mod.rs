@@ -50,7 +50,7 @@ fn candidates(args: &SweepArgs, console: &Console) -> Result<Exit, Failure> {
     let asked = question.of(input)?;
     let folder = || Folder::prepare(asked.folder(args.output.clone()));
     let folder = (!args.no_files).then(folder).transpose()?;
-    console.warn(&asked.input.netlist.files, &asked.doubts());
+    console.warn(&asked.input.netlist.files, &asked.input.netlist.warnings);
     let threads = args.threads.unwrap_or_else(available_threads);
     let (outcome, interrupted) = match &folder {
         Some(folder) => into_folder(&asked, (folder, args.resume), threads, console)?,
