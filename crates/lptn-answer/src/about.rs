@@ -17,7 +17,8 @@ use crate::{fields, ranges};
 pub struct Sensitivities {
     /// Quantity that changes: `steel at 25 min`.
     pub of: String,
-    /// Change in K per 1 % of each parameter, or per 1 K of a temperature; `None` if not known.
+    /// Change in K per 1 % of each parameter, or per 1 K of a temperature; `None` if not known, or
+    /// if the value is 0, of which there is no share.
     pub values: Vec<Option<f64>>,
 }
 
@@ -212,7 +213,10 @@ fn parameters(input: &Input, sensitivities: Option<&Sensitivities>) -> Option<Se
     text.table(table);
     if let Some(found) = sensitivities {
         let of = &found.of;
-        text.line(format!("The last column is about {of}; of a temperature it is for 1 K more."));
+        text.line(format!(
+            "The last column is about {of}; of a temperature it is for 1 K more. A value of 0 has no \
+             1 %."
+        ));
     }
     Some(Section::of("Parameters", Piece::Text(text)))
 }

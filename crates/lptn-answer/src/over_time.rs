@@ -90,12 +90,12 @@ pub(crate) fn rows(
     for (window, (from, to), seen) in [("", span, seen)].into_iter().chain(windows) {
         for seen in seen {
             let report = report(network, seen);
+            let bound = bound_in_unit(network, seen, unit);
             let (value, unit) = scale::in_unit(seen.value, report.ty, unit);
             let mut row = vec![report.name.clone(), report.text.clone(), window.to_owned()];
             row.extend([from, to, value].map(|number| text.text(number).to_owned()));
             row.push(symbol(&unit).to_owned());
-            // in K for a temperature
-            let bound = seen.bound.map(|bound| text.text(bound).to_owned());
+            let bound = bound.map(|(bound, _)| text.text(bound).to_owned());
             row.extend(bounded.then(|| bound.unwrap_or_default()));
             rows.push(row);
         }

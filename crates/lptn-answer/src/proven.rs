@@ -5,7 +5,10 @@ use lptn_netlist::Diagnostic;
 use lptn_network::{Item, Network, NodeId, list_of_names};
 use lptn_report::rounded_up as up;
 use lptn_solve::{NodeSummary, Selection, Solution, Uncertified};
+use lptn_units::Unit;
 use serde_json::{Map, Value, json};
+
+use crate::scale;
 
 /// True if there are bounds.
 pub(crate) fn is(solution: &Solution) -> bool {
@@ -13,9 +16,10 @@ pub(crate) fn is(solution: &Solution) -> bool {
 }
 
 /// The bound of a node over the run, and of its peak; empty if there is none.
-pub(crate) fn cell(solution: &Solution, node: &NodeSummary) -> String {
+pub(crate) fn cell((solution, unit): (&Solution, &Unit), node: &NodeSummary) -> String {
     let peak = solution.peak_bound(node.node, node.peak.0).unwrap_or(0.0);
-    solution.largest_bound(node.node).map_or_else(String::new, |bound| up(bound.max(peak)))
+    let bound = solution.largest_bound(node.node);
+    bound.map_or_else(String::new, |bound| up(bound.max(peak) / unit.scale))
 }
 
 /// The largest bounds of all nodes and of all heats as a sentence; `None` if there are none.
@@ -71,11 +75,11 @@ pub(crate) fn of_steady(bounds: &[f64]) -> String {
     )
 }
 
-/// The bounds of a steady state, in K.
-pub(crate) fn steady_members(network: &Network, bounds: &[f64]) -> Value {
+/// The bounds of a steady state, as differences of temperatures in `unit`.
+pub(crate) fn steady_members(network: &Network, bounds: &[f64], unit: &Unit) -> Value {
     let named = network.nodes().iter().zip(bounds);
     let errors: Map<String, Value> = named
-        .map(|(node, bound)| (node.name.clone(), json!({ "value": bound, "unit": "K" })))
+        .map(|(node, bound)| (node.name.clone(), scale::of_difference(*bound, unit)))
         .collect();
     Value::Object(errors)
 }
@@ -156,13 +160,13 @@ fn without(solution: &Solution, selection: &Selection) -> Vec<String> {
     solution.without_bounds(selection).into_iter().chain(numbers).chain(heats).collect()
 }
 
-/// The bounds of all recorded nodes over the run, in K.
-pub(crate) fn members(solution: &Solution) -> Option<Value> {
+/// The bounds of all recorded nodes over the run, as differences of temperatures in `unit`.
+pub(crate) fn members(solution: &Solution, unit: &Unit) -> Option<Value> {
     is(solution).then_some(())?;
     let network = solution.network();
     let bound = |id: &NodeId| {
         let bound = solution.largest_bound(*id)?;
-        Some((network.nodes()[id.index()].name.clone(), json!({ "value": bound, "unit": "K" })))
+        Some((network.nodes()[id.index()].name.clone(), scale::of_difference(bound, unit)))
     };
     let errors: Map<String, Value> = solution.recorded().iter().filter_map(bound).collect();
     Some(Value::Object(errors))

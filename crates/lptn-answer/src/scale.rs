@@ -1,7 +1,5 @@
-//! Temperatures for programs: the whole object has one unit, the one that is shown.
-//! All else is in SI.
-
-use std::borrow::Cow;
+//! Temperatures for programs: the whole object has one unit, the one that is shown
+//! ([`Unit::shown`]). All else is in SI.
 
 use lptn_solve::Table;
 use lptn_units::{Dimension, Type, Unit};
@@ -23,11 +21,7 @@ pub fn scalar(si: f64, ty: Type, unit: &Unit) -> Value {
 
 /// The same as a number, and its unit.
 pub fn in_unit(si: f64, ty: Type, unit: &Unit) -> (f64, String) {
-    match ty.dimension == Dimension::TEMPERATURE {
-        true if ty.absolute => (unit.from_si(si), unit.text.clone()),
-        true => (si / unit.scale, difference(unit).to_owned()),
-        false => (si, ty.dimension.si_unit()),
-    }
+    (unit.show(si, ty), unit.shown(ty).text)
 }
 
 /// A temperature in K.
@@ -40,10 +34,10 @@ pub fn of_difference(kelvin: f64, unit: &Unit) -> Value {
     scalar(kelvin, Type::of(Dimension::TEMPERATURE), unit)
 }
 
-/// A table whose temperatures are in `unit` with its differences, which CSV has in K, to match.
-pub fn table<'a>(table: &'a Table, unit: &Unit) -> Cow<'a, Table> {
+/// A table of a study, whose differences are in K, with those that belong to `unit`.
+pub fn table(table: Table, unit: &Unit) -> Table {
     if difference(unit) == "K" {
-        return Cow::Borrowed(table);
+        return table;
     }
     let rows: Vec<usize> = (0..table.rows()).collect();
     let mut scaled = Table::of(&rows);
@@ -54,5 +48,5 @@ pub fn table<'a>(table: &'a Table, unit: &Unit) -> Cow<'a, Table> {
             own => scaled.column(&of.name, own, |&row| of.values[row]),
         }
     }
-    Cow::Owned(scaled.done())
+    scaled.done()
 }

@@ -5,6 +5,7 @@ use lptn_report::significant;
 use lptn_units::{Rational, Type, Unit};
 
 use crate::input::Input;
+use crate::words::spaced;
 
 /// Digits of a value of unknown accuracy.
 const DIGITS: usize = 5;
@@ -154,11 +155,12 @@ impl Named<'_> {
     }
 
     /// Size of an unknown for relative changes, in SI units.
-    /// It is 100 K for temperatures and offsets, whose zero is arbitrary.
+    /// It is 100 K for temperatures and offsets, whose zero is arbitrary, and 100 of the SI unit for
+    /// a value of 0, of which there is no share.
     fn size(&self, i: usize) -> f64 {
-        const KELVIN: f64 = 100.0;
+        const ARBITRARY: f64 = 100.0;
         let value = self.values[i].abs();
-        if self.unknowns[i].is_shift() { KELVIN } else { value.max(f64::MIN_POSITIVE) }
+        if self.unknowns[i].is_shift() || value <= 0.0 { ARBITRARY } else { value }
     }
 
     /// The largest relative change of a direction, so that divided by it the largest is 1 %.
@@ -172,6 +174,10 @@ impl Named<'_> {
         let sign = if change < 0.0 { "" } else { "+" };
         if self.unknowns[i].is_shift() {
             return format!("{} {sign}{} K", self.names[i], significant(change, 3));
+        }
+        if self.values[i].abs() <= 0.0 {
+            let unit = spaced(&self.unknowns[i].ty.dimension.si_unit());
+            return format!("{} {sign}{}{unit}", self.names[i], significant(change, 3));
         }
         let part = significant(100.0 * change / self.size(i), 3);
         format!("{} {sign}{part} %", self.names[i])

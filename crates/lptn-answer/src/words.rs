@@ -73,7 +73,7 @@ pub fn spaced(unit: &str) -> String {
 
 /// The unit of a difference between two temperatures in `unit`.
 pub fn difference(unit: &Unit) -> &'static str {
-    if (unit.scale - 1.0).abs() < 1e-12 { "K" } else { "degR" }
+    unit.difference()
 }
 
 /// Elements with laws whose constants were not read in their source.

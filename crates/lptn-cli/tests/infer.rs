@@ -170,6 +170,19 @@ fn an_offset_that_nothing_determines_is_a_verdict() {
     folder.run(&["infer", "body.toml"]).exits(1).prints("not determined");
 }
 
+/// Two heats into one body warm it by their sum only. The verdict names both, and no other unknown.
+#[test]
+fn a_verdict_names_what_cannot_be_distinguished() {
+    let both = STUDY.replace("find = [\"P\"]", "find = [\"P\", \"Q\"]");
+    let more = "[signal.Q]\nt = [\"0 s\", \"1 s\"]\nv = [\"1 W\", \"1 W\"]\nafter_end = \"hold\"\n[source.more]\ninto = \"body\"\nP = \"Q\"\n";
+    let text = format!("{both}{more}");
+    let run = folder(&text).run(&["infer", "body.toml"]).exits(1);
+    let said = run.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    let verdict = "not determined: the record cannot distinguish `P` from `Q`; find only one of `P` and \
+                   `Q`, or measure another node";
+    assert!(said.ends_with(verdict), "{said}");
+}
+
 /// A walk by 60 W in a minute leaves far more than noise does, and that is an answer: 35.640694 W by
 /// the algebraic Riccati equation of temperature and power (SciPy 1.17, `solve_discrete_are`, noise by
 /// the exponential of C. F. Van Loan's matrix). A free offset of the only instrument, and one of 300 K

@@ -1,4 +1,5 @@
-//! JSON has its temperatures in one unit: the one that is shown, in every member.
+//! Every output has its temperatures in one unit: the one that is shown, and K or degR for their
+//! differences.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -113,7 +114,7 @@ fn of_everything() -> Folder {
     let text = GEARBOX
         .replace("\"25.5 degC\"", "\"25.5 ± 1 degC\"")
         .replace("\"220.6 W\"", "\"220.6 W ± 5 %\"");
-    let run = "[run]\nreport = { rise = \"steel.T - air.T\" }\nselect = [\"*.T\", \"rise\"]\n\
+    let run = "[run]\nreport = { rise = \"steel.T - air.T\", wide = \"mean(steel.T - air.T)\" }\nselect = [\"*.T\", \"rise\"]\n\
                window = { late = { from = \"20 min\", to = \"25 min\" } }\n";
     let limits = "[limit]\nhot = { of = \"steel.T\", below = \"90 degC\" }\n\
                   rise = { of = \"steel.T - air.T\", below = \"90 K\" }\n";
@@ -140,6 +141,7 @@ fn temperatures_come_in_one_unit() {
         ("steady gearbox.toml", 8),
         ("steady duty.toml --periodic", 10),
         ("compare gearbox.toml duty.toml", 6),
+        ("rank gearbox.toml", 6),
         ("reduce gearbox.toml --port steel --bias", 6),
         ("fit step record.csv --capacity 2659J/K --sensor 1K", 5),
         ("fit step record.csv --model gearbox.toml --port steel", 10),
@@ -151,6 +153,85 @@ fn temperatures_come_in_one_unit() {
         // without the option in the netlist's, which is degC, and no absolute one in K
         let celsius = folder.json(command).json();
         assert!(celsius.to_string().contains("\"degC\""), "{command}: {celsius}");
+    }
+}
+
+/// Compares two files of CSV, one in K and the same in degF, and gives how many temperatures they
+/// have. A column has its unit in brackets, or a row has it in its cell `unit`.
+fn compared_csv(kelvin: &str, other: &str) -> usize {
+    let cells = |text: &str| -> Vec<Vec<String>> {
+        let mut reader = csv::ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .from_reader(text.as_bytes());
+        let row = |row: csv::StringRecord| row.iter().map(str::to_owned).collect();
+        reader.records().map(|record| row(record.unwrap())).collect()
+    };
+    let (kelvin, other) = (cells(kelvin), cells(other));
+    assert_eq!(kelvin.len(), other.len());
+    let unit_of = |rows: &[Vec<String>], row: usize, column: usize| {
+        let header = &rows[0][column];
+        let own = header.split_once(" [").map(|(_, unit)| unit.trim_end_matches(']').to_owned());
+        let of_row = rows[0].iter().position(|header| header == "unit");
+        own.or_else(|| of_row.map(|place| rows[row][place].clone())).unwrap_or_default()
+    };
+    let mut found = 0;
+    for row in 1..kelvin.len() {
+        for column in 0..kelvin[0].len() {
+            let (k, o) = (unit_of(&kelvin, row, column), unit_of(&other, row, column));
+            assert_ne!(o, "K", "{:?}", other[0][column]);
+            let (a, b) = (kelvin[row][column].parse::<f64>(), other[row][column].parse::<f64>());
+            let (Ok(a), Ok(b)) = (a, b) else { continue };
+            if k == "K" && kelvin[0][column] != "value [-]" {
+                // a bound or a swing beside its value is a difference
+                let difference = ["swing", "bound"].contains(&kelvin[0][column].as_str());
+                let unit = if difference { "degR" } else { o.as_str() };
+                assert!(["degF", "degR"].contains(&unit), "{unit}");
+                let same = is_same(&a.into(), &b.into(), unit) || (a.is_nan() && b.is_nan());
+                assert!(same, "{:?} {a} {b}", kelvin[0][column]);
+                found += 1;
+            }
+        }
+    }
+    found
+}
+
+/// A mean difference was in degR in one file and in K in the next.
+#[test]
+fn csv_and_tables_have_the_units_of_json() {
+    let folder = of_everything();
+    for (command, least) in [
+        ("run gearbox.toml --no-files", 900),
+        ("run gearbox.toml --no-files --certify", 900),
+        ("run gearbox.toml --no-files --uncertainty linear", 900),
+        ("steady gearbox.toml", 4),
+        ("steady duty.toml --periodic", 10),
+        ("compare gearbox.toml duty.toml", 6),
+        ("rank gearbox.toml", 6),
+        ("reduce gearbox.toml --port steel --bias", 2),
+        ("fit step record.csv --capacity 2659J/K --sensor 1K", 5),
+    ] {
+        let [kelvin, fahrenheit] = ["K", "degF"].map(|unit| {
+            let all = format!("{command} --temperature-unit {unit} --format csv");
+            folder.run(&all.split(' ').collect::<Vec<_>>()).out
+        });
+        let found = compared_csv(&kelvin, &fahrenheit);
+        assert!(found >= least, "{command}: {found} temperatures");
+        let all = format!("{command} --temperature-unit degF");
+        let text = folder.run(&all.split(' ').collect::<Vec<_>>()).out;
+        let heads = text.lines().filter(|line| line.contains("[K]"));
+        let heads: Vec<&str> = heads.filter(|_| !command.starts_with("reduce")).collect();
+        assert!(heads.is_empty(), "{command}: {heads:?}");
+    }
+    for unit in ["K", "degF"] {
+        let all = format!("run gearbox.toml --temperature-unit {unit} --certify -o {unit}");
+        folder.run(&all.split(' ').collect::<Vec<_>>());
+    }
+    for name in ["result", "windows", "reports"] {
+        let [kelvin, fahrenheit] =
+            ["K", "degF"].map(|unit| folder.read(&format!("{unit}/{name}.csv")));
+        let found = compared_csv(&kelvin, &fahrenheit);
+        assert!(found >= 2, "{name}: {found} temperatures");
     }
 }
 

@@ -171,12 +171,21 @@ fn results_are_drawn_as_the_run_that_wrote_them() {
 fn differences_of_temperatures_are_drawn_as_differences() {
     let text = LUMP.replace("output =", "report = { fall = 'air.T - lump.T' }\noutput =");
     let folder = Folder::with("lump.toml", &text);
-    for unit in ["degC", "K", "degF"] {
+    for (unit, asked, axis, size) in [
+        ("degC", None, "fall [K]", 1.0),
+        ("K", None, "fall [K]", 1.0),
+        ("degF", None, "fall [°R]", 1.8),
+        ("degF", Some("degC"), "fall [K]", 1.0),
+        ("K", Some("degF"), "fall [°R]", 1.8),
+    ] {
         folder.run(&["run", "lump.toml", "--temperature-unit", unit]).exits(0);
         folder.run(&["report", "out/lump"]).exits(0);
-        folder.run(&["plot", "out/lump", "--select", "fall", "-o", "fall.svg"]).exits(0);
-        let curve = Picture::read(&folder.read("fall.svg")).lines("fall [K]", "series0").remove(0);
-        for (minutes, kelvin) in curve {
+        let mut plot = vec!["plot", "out/lump", "--select", "fall", "-o", "fall.svg"];
+        plot.extend(asked.iter().flat_map(|asked| ["--temperature-unit", asked]));
+        folder.run(&plot).exits(0);
+        let curve = Picture::read(&folder.read("fall.svg")).lines(axis, "series0").remove(0);
+        for (minutes, found) in curve {
+            let kelvin = found / size;
             assert!((kelvin + rise(60.0 * minutes)).abs() < 0.02, "{unit}: {kelvin} at {minutes}");
         }
     }

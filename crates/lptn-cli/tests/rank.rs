@@ -67,6 +67,36 @@ fn a_parameter_without_effect_is_listed() {
     assert_eq!(row.as_array().unwrap().last().unwrap().as_f64(), Some(0.0));
 }
 
+/// 10 % of 0 W is nothing, which is not "no effect": 1 W more into the core warms it by
+/// 0.05 K/W + 1 / (4 W/K), over steady states and over a run that is long enough.
+#[test]
+fn a_value_of_zero_is_changed_by_one_of_its_unit() {
+    let text = CHAIN
+        .replace("[param]\n", "[param]\nz = \"0 kW\"\nidle = \"0 W\"\n")
+        .replace("P = \"100 W\"", "P = \"100 [W] + z\"")
+        + "[run]\nstop = \"10 h\"\n";
+    let folder = Folder::with("chain.toml", &text);
+    for over in ["steady", "run"] {
+        let ran = folder.run(&["rank", "chain.toml", "--over", over]).exits(0);
+        ran.prints("`z` is 0, of which 10 % is nothing: +1 kW makes core 300 K warmer");
+        let ran = folder.run(&["rank", "chain.toml", "--over", over, "--format", "csv"]).exits(0);
+        let row = ran.out.lines().find(|line| line.starts_with("z,")).unwrap().to_owned();
+        assert!(row.starts_with("z,parameter,kW,+1 kW,0,"), "{row}");
+        let effect: f64 = row.rsplit(',').next().unwrap().parse().unwrap();
+        assert!((effect - 300.0).abs() < 0.1, "{row}");
+        assert!(ran.out.lines().any(|line| line == "idle,parameter,W,+1 W,0,0"), "{}", ran.out);
+    }
+    // nothing else is there to change
+    let alone = "format = 1\n[param]\nz = \"0 W\"\n[node]\na = { C = \"1 J/K\", T0 = \"20 degC\" }\n\
+        b = { C = \"1 J/K\", T0 = \"20 degC\" }\n[resistor]\nr = { from = \"a\", to = \"b\", R = \"1 K/W\" \
+        }\n[source]\ns = { into = \"a\", P = \"z\" }\nu = { into = \"a\", P = \"1 W\" }\n[run]\nstop = \"1 min\"\n";
+    let folder = Folder::with("alone.toml", alone);
+    folder
+        .run(&["rank", "alone.toml", "--over", "run", "--of", "a"])
+        .exits(0)
+        .prints("a responds to no value that is not 0");
+}
+
 /// Where something switches there are no derivatives by parameters, which is said.
 #[test]
 fn parameters_that_are_not_ranked_are_told() {

@@ -21,6 +21,7 @@ mod design_scatter;
 mod design_sets;
 mod fit_network;
 mod infer;
+mod infer_determined;
 mod infer_follow;
 mod infer_inputs;
 mod infer_noise;

@@ -68,8 +68,9 @@ fn is_bound(column: &Column, columns: &[Column]) -> bool {
 /// A curve in the band of its proven errors, if there are any.
 fn within(curve: Curve, column: &Column, columns: &[Column]) -> Curve {
     let Some(bounds) = bound_of(column, columns) else { return curve };
-    // errors of temperatures are in K
-    let scale = if matches!(column.unit.as_str(), "degF" | "degR") { 1.8 } else { 1.0 };
+    // in files of older versions they are in K
+    let fahrenheit = matches!(column.unit.as_str(), "degF" | "degR");
+    let scale = if fahrenheit && bounds.unit == "K" { 1.8 } else { 1.0 };
     let side = |(value, bound): (&f64, &f64)| (value - scale * bound, value + scale * bound);
     let spread = column.values.iter().zip(&bounds.values).map(side).collect();
     curve.within(spread)
@@ -106,8 +107,8 @@ enum Quantity {
 impl Quantity {
     fn of(column: &Column) -> Self {
         match column.unit.as_str() {
-            "degC" | "degF" | "degR" => Self::Temperature,
-            "K" if column.name.ends_with(".T") => Self::Temperature,
+            "degC" | "degF" => Self::Temperature,
+            "K" | "degR" if column.name.ends_with(".T") => Self::Temperature,
             "W" => Self::HeatFlow,
             "J" => Self::Heat,
             _ => Self::Other,

@@ -181,12 +181,12 @@ impl Shown {
         Self { ty, own: None }
     }
 
-    /// The unit: `temperature` for points on the scale, else its own, else SI; `1` for a number.
+    /// The unit: `temperature` for points on the scale, else its own, else that of a difference of
+    /// temperatures, else SI; `1` for a number.
     pub(crate) fn unit(&self, temperature: &Unit) -> String {
         match &self.own {
-            _ if self.ty.absolute => temperature.text.clone(),
-            Some(own) => own.text.clone(),
-            None => self.ty.dimension.si_unit(),
+            Some(own) if !self.ty.absolute => own.text.clone(),
+            _ => temperature.shown(self.ty).text,
         }
     }
 
@@ -198,9 +198,8 @@ impl Shown {
     /// A value in that unit.
     pub(crate) fn value(&self, si: f64, temperature: &Unit) -> f64 {
         match &self.own {
-            _ if self.ty.absolute => temperature.from_si(si),
-            Some(own) => own.from_si(si),
-            None => si,
+            Some(own) if !self.ty.absolute => own.from_si(si),
+            _ => temperature.show(si, self.ty),
         }
     }
 }

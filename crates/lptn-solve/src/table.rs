@@ -160,28 +160,31 @@ impl Table {
         self
     }
 
-    /// The table of a run with the proven bounds on the errors of its columns after them, those of
-    /// temperatures in K; the same if there are none. `unit` is that of the temperatures.
+    /// The table of a run with the proven bounds on the errors of its columns after them; the same
+    /// if there are none. `unit` is that of the temperatures, and bounds are differences.
     #[must_use]
     pub fn with_bounds(mut self, solution: &Solution, selection: &Selection, unit: &Unit) -> Self {
         let network = solution.network();
         let columns = self.columns.get(1..).unwrap_or_default();
         let bounds = selection.quantities().iter().zip(columns).filter_map(|(quantity, column)| {
             let shown = Shown::of(*quantity, network);
-            let (scale, text) = match shown.is_absolute() {
-                true => (unit.scale, "K".to_owned()),
-                false => (1.0, column.unit.clone()),
+            let text = match shown.is_absolute() {
+                true => unit.difference().to_owned(),
+                false => column.unit.clone(),
             };
             let values = match quantity {
-                Quantity::Node(node) => solution.bounds(*node)?,
+                Quantity::Node(node) => {
+                    solution.bounds(*node)?.into_iter().map(|kelvin| kelvin / unit.scale).collect()
+                }
                 _ => {
                     let ranges = solution.proven_ranges(*quantity)?;
                     let ranges =
                         ranges.into_iter().map(|range| range.map(|si| shown.value(si, unit)));
                     let rows = ranges.zip(&column.values);
-                    rows.map(|(range, value)| scale * farthest(*value, range)).collect()
+                    rows.map(|(range, value)| farthest(*value, range)).collect()
                 }
             };
+            let values: Vec<f64> = values;
             let known = !values.iter().all(|bound| bound.is_nan());
             known.then(|| Column { name: format!("{}.bound", column.name), unit: text, values })
         });

@@ -61,7 +61,7 @@ impl ColumnSeen {
     }
 
     /// The unit that its values are shown in: `temperature` for points on the scale, that of a
-    /// signal which has one, else SI; `1` for a number.
+    /// signal which has one, K or degR for a difference of temperatures, else SI; `1` for a number.
     pub fn unit(&self, temperature: &Unit) -> String {
         self.shown.unit(temperature)
     }

@@ -57,6 +57,9 @@ pub struct Ranking {
     pub at: Option<f64>,
     /// Effects of parameters, the largest first; those without effect have 0.
     pub parameters: Vec<Influence>,
+    /// Parameters whose value is 0, so that no share of it is a change. Their `change` is the slope
+    /// of the temperature in K per SI unit.
+    pub zeros: Vec<Influence>,
     /// Why parameters are not ranked, if the network has no derivatives by them.
     pub not_ranked: Option<String>,
     /// Parameters that can be neither a little larger nor a little smaller, such as numbers of
@@ -95,17 +98,18 @@ impl Ranking {
             Err(ParameterSlopes::Input(error)) => return Err(error.into()),
             Err(ParameterSlopes::None(why)) => (Vec::new(), Some(why.to_string())),
         };
-        let known = slopes.iter().zip(&ids);
-        let parameters = known.map(|(&slope, &id)| of_parameter(network, id, slope)).collect();
+        let known = ids.iter().copied().zip(slopes);
         let temperature = state.temperatures[node.index()];
         let feedback = Feedback::of(system, state);
         let slowest = feedback.as_ref().and_then(|_| Modes::of(system, Some(state), 1).ok());
         let slowest = slowest.and_then(|modes| Some(modes.modes().first()?.rate));
+        let (parameters, zeros) = of_parameters(network, known, temperature);
         Ok(Self {
             node,
             temperature,
             at: None,
-            parameters: all_sorted(parameters, temperature),
+            parameters,
+            zeros,
             not_ranked,
             fixed,
             elements: sorted(adjoint.influences()?, temperature),
@@ -141,17 +145,18 @@ impl Ranking {
             let at_peak = || run.sensitivity(id, node).and_then(|row| row.get(place).copied());
             of_runs.or_else(at_peak).unwrap_or(f64::NAN)
         };
-        let parameters = ids.iter().map(|&id| of_parameter(network, id, slope(id))).collect();
+        let known = ids.iter().map(|&id| (id, slope(id)));
+        let (parameters, zeros) = of_parameters(network, known, temperature);
         let differences = match &run.gradient {
             Gradient::Exact => None,
             Gradient::Differences(why) => Some(why.to_string()),
         };
-        let parameters = all_sorted(parameters, temperature);
         Ok(Self {
             node,
             temperature,
             at: Some(at),
             parameters,
+            zeros,
             not_ranked: None,
             fixed,
             elements: Vec::new(),
@@ -186,12 +191,38 @@ fn highest(
     Ok(Highest { node, temperature, at })
 }
 
+/// The effects of parameters by their slopes, sorted, and then those whose value is 0.
+fn of_parameters(
+    network: &Network,
+    slopes: impl Iterator<Item = (ParameterId, f64)>,
+    temperature: f64,
+) -> (Vec<Influence>, Vec<Influence>) {
+    let all = slopes.map(|(id, slope)| of_parameter(network, id, slope));
+    let (zeros, others): (Vec<_>, Vec<_>) = all.partition(is_zero);
+    let zeros = zeros.into_iter().filter(|zero| !zero.change.is_nan()).collect();
+    (all_sorted(others, temperature), zeros)
+}
+
+/// True if no share of a value is a change.
+fn is_zero(influence: &Influence) -> bool {
+    !influence.absolute && influence.value.abs() <= 0.0
+}
+
 fn of_parameter(network: &Network, id: ParameterId, slope: f64) -> Influence {
     let ty = network.parameters()[id.index()].ty;
     let value = network.parameter_value(id);
-    let change = slope * if ty.absolute { 1.0 } else { value };
-    let absolute = ty.absolute;
-    Influence { of: Item::Parameter(id), field: Field::Value, value, change, ty, absolute }
+    let mut of = Influence {
+        of: Item::Parameter(id),
+        field: Field::Value,
+        value,
+        change: slope,
+        ty,
+        absolute: ty.absolute,
+    };
+    if !of.absolute && !is_zero(&of) {
+        of.change *= value;
+    }
+    of
 }
 
 /// The ends of a run with both sides of a time of it; one that is next to an end is the end.

@@ -111,6 +111,13 @@ impl Reading<'_> {
                 let fix = format!("{} ± {size} {}", self.number_text(), self.unit_text());
                 UnitErrorKind::RelativeDeviation { fix: Some(fix) }
             }
+            // no share of 0 is a deviation
+            Measure::Percent { .. } if x.abs() <= 0.0 && y.abs() > 0.0 => {
+                let (number, unit) = (self.number_text(), self.unit_text());
+                UnitErrorKind::DeviationOfZero {
+                    example: format!("{number} ± 1 {unit}").trim_end().to_owned(),
+                }
+            }
             Measure::Percent { leading: true } => UnitErrorKind::PercentDeviation {
                 points: format!("{} {}", plain(x / 100.0, y / 100.0), self.unit_text()),
                 part: format!(

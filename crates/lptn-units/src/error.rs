@@ -134,6 +134,12 @@ pub enum UnitErrorKind {
     /// `25 ± 5 % degC`: a percentage of an absolute temperature.
     RelativeDeviation { fix: Option<String> } = "units::relative_deviation",
         "percentage of an absolute temperature", help fix.as_deref().map(write);
+    /// `0 W ± 10 %`: a percentage of 0 is nothing; the value with a deviation of 1 instead.
+    DeviationOfZero { example: String } = "units::relative_deviation",
+        "a percentage of 0 is 0, so the value would be exact",
+        help format!(
+            "write the deviation in the unit of the value, for example \"{example}\""
+        );
     /// A deviation in percent with two readings: `0.8 ± 5 %`, `80 % ± 5 %`, `220 ± 5 % W`. The
     /// string if the percentage is of the same kind as the value, and if it is a part of the value.
     PercentDeviation { points: String, part: String } = "units::percent_deviation",

@@ -3,6 +3,7 @@
 //! lptn carries the units that people write and never computes with them. `Signal::unit` and
 //! `TableSymbol::units` serve headers, messages and the expansion only.
 
+use crate::dimension::Dimension;
 use crate::error::{UnitError, UnitErrorKind};
 use crate::repair;
 use crate::types::Type;
@@ -45,6 +46,32 @@ impl Unit {
     /// A value in this unit, from SI (absolute temperatures in K).
     pub fn from_si(&self, si: f64) -> f64 {
         si / self.scale - self.offset
+    }
+
+    /// The unit in which a quantity is shown if temperatures are in this unit: this one for points
+    /// on the scale, K or degR for their differences, SI for all else. Every table, file and
+    /// message asks here.
+    #[must_use]
+    pub fn shown(&self, ty: Type) -> Self {
+        match ty.dimension == Dimension::TEMPERATURE {
+            true if ty.absolute => self.clone(),
+            true => Self { text: self.difference().to_owned(), offset: 0.0, ty, ..*self },
+            false => Self { text: ty.dimension.si_unit(), scale: 1.0, offset: 0.0, ty },
+        }
+    }
+
+    /// A value of SI in that unit.
+    pub fn show(&self, si: f64, ty: Type) -> f64 {
+        match ty.dimension == Dimension::TEMPERATURE {
+            true if ty.absolute => self.from_si(si),
+            true => si / self.scale,
+            false => si,
+        }
+    }
+
+    /// The unit of a difference between two temperatures in this unit.
+    pub fn difference(&self) -> &'static str {
+        if (self.scale - 1.0).abs() < 1e-12 { "K" } else { "degR" }
     }
 
     /// A value in SI (absolute temperatures in K), from this unit.

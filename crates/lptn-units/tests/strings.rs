@@ -299,6 +299,8 @@ fn wrong_temperatures_and_products_say_what_is_due() {
 fn wrong_numbers() {
     let zero = Some("0 K is -273.15 degC or -459.67 degF");
     let positive = Some("the standard deviation after ± is zero or positive");
+    let zero_w = Some("write the deviation in the unit of the value, for example \"0 ± 1 W\"");
+    let zero_r = Some("write the deviation in the unit of the value, for example \"0 ± 1 K/W\"");
     let finite = Some("leave the field out if there is no such value");
     check_wrong(&[
         ("1,5 K/W", None, "units::decimal_comma", ",", Some("write \"1.5 K/W\"")),
@@ -314,6 +316,8 @@ fn wrong_numbers() {
         ("5 degC ± 1", None, "units::bare_number", "1", Some("write \"5 ± 1 degC\"")),
         ("5 degC ± 1 W", None, "units::dimension", "1", Some("the value must come out in K")),
         ("5 kW ± 1", None, "units::bare_number", "1", Some("write \"5 ± 1 kW\"")),
+        ("0 W ± 10 %", None, "units::relative_deviation", "10", zero_w),
+        ("0 ± 5 % K/W", None, "units::relative_deviation", "5", zero_r),
         ("25 ± 5 % degC", None, "units::relative_deviation", "5", Some("write \"25 ± 1.25 degC\"")),
         (
             "5 m^(1/0)",

@@ -3,11 +3,13 @@
 use lptn_netlist::Diagnostic;
 use lptn_report::{Align, Column, decimals, fixed, significant};
 use lptn_study::{Candidate, CompareRow, Scatter};
+use lptn_units::{Type, Unit};
 
 use super::margins::limits;
 use crate::input::Input;
 use crate::run::uncertainty::bends;
-use crate::words::spaced;
+use crate::scale;
+use crate::words::{difference, spaced};
 
 /// Cell of a value that is not known or does not exist.
 const NOTHING: &str = "-";
@@ -26,7 +28,7 @@ pub(super) fn look(input: &Input, found: &mut Candidate, file: &str) -> Option<D
     match Scatter::of_run(&netlist.network, (&parameters, run), hottest) {
         Ok(scatter) => {
             let bent = scatter.as_ref().map_or(&[][..], |scatter| &scatter.bent);
-            let rough = bends(&netlist.network, bent).map(|text| {
+            let rough = bends((&netlist.network, &netlist.temperature_unit), bent).map(|text| {
                 Diagnostic::warning("uncertainty::not_linear", format!("{file}: {text}"))
             });
             found.scatter = scatter;
@@ -38,7 +40,11 @@ pub(super) fn look(input: &Input, found: &mut Candidate, file: &str) -> Option<D
 
 /// Columns of uncertainty, none if nothing is uncertain.
 /// Deviations of peak and margins, probability of a broken limit, peak over that of the first.
-pub(super) fn columns((rows, fold): (&[CompareRow], bool), names: &[String]) -> Vec<Column> {
+pub(super) fn columns(
+    (rows, fold): (&[CompareRow], bool),
+    names: &[String],
+    unit: &Unit,
+) -> Vec<Column> {
     let Some(first) = rows.iter().position(|row| row.scatter().is_some()) else {
         return Vec::new();
     };
@@ -46,14 +52,17 @@ pub(super) fn columns((rows, fold): (&[CompareRow], bool), names: &[String]) -> 
         let cells = rows.iter().map(|row| cell(row).unwrap_or_else(|| NOTHING.to_owned()));
         Column::new(title, Align::Right, cells.collect())
     };
-    let kelvin = |value: f64| format!("{} K", significant(value, 2));
-    let mut columns = vec![column("peak".into(), &|row| Some(kelvin(row.scatter()?.peak)))];
+    let number = |si: f64, ty: Type| {
+        let (value, unit) = scale::in_unit(si, Type::of(ty.dimension), unit);
+        format!("{}{}", significant(value, 2), spaced(&unit))
+    };
+    let peak = |row: &CompareRow| Some(number(row.scatter()?.peak, Type::ABSOLUTE_TEMPERATURE));
+    let mut columns = vec![column("peak".into(), &peak)];
     for judged in limits(rows, fold) {
         let (name, limit) = (judged.worst_name(), CompareRow::limit);
         let sd = |row: &CompareRow| {
             let worst = judged.worst(row, &limit)?;
-            let unit = spaced(&worst.ty.dimension.si_unit());
-            Some(format!("{}{unit}", significant(row.scatter_of(&worst.name)?.0, 2)))
+            Some(number(row.scatter_of(&worst.name)?.0, worst.ty))
         };
         columns.push(column(name.clone(), &sd));
         let broken =
@@ -65,8 +74,9 @@ pub(super) fn columns((rows, fold): (&[CompareRow], bool), names: &[String]) -> 
         let above = |row: &CompareRow| Some(row.scatter()?.above(than?));
         let shown = |row: &CompareRow| {
             let above = above(row).filter(|_| !std::ptr::eq(row, &rows[first]))?;
-            let digits = decimals(above.deviation, 2, 0);
-            Some(format!("{} ± {} K", fixed(above.by, digits), fixed(above.deviation, digits)))
+            let [by, error] = [above.by, above.deviation].map(|kelvin| kelvin / unit.scale);
+            let digits = decimals(error, 2, 0);
+            Some(format!("{} ± {} {}", fixed(by, digits), fixed(error, digits), difference(unit)))
         };
         columns.push(column(format!("above {}", names[first]), &shown));
         let sure = |row: &CompareRow| {

@@ -14,7 +14,7 @@ use crate::input::Input;
 use crate::listener::Nobody;
 use crate::plot::{Source, overlay};
 use crate::run::RunQuestion;
-use crate::words::count;
+use crate::words::{count, difference};
 
 /// Most candidates whose curves are over each other.
 const MOST: usize = 8;
@@ -41,11 +41,11 @@ impl CompareAnswer {
         let steady = kelvin(&|candidate| candidate.steady);
         let named = [("peak", peaks), ("steady", steady), ("settled", kelvin(&beside))];
         hot.curves = named.into_iter().filter_map(|(name, points)| dots(name, points)).collect();
-        let mut margins = Panel::new(Axis::linear("margin", "K"), candidates());
+        let mut margins = Panel::new(Axis::linear("margin", difference(unit)), candidates());
         for judged in limits(&self.rows, self.fold) {
             let name = &judged.name;
             let margin = |limit: &CandidateLimit| {
-                (limit.is_temperature() && !limit.is_open()).then_some(limit.margin)
+                (limit.is_temperature() && !limit.is_open()).then_some(limit.margin / unit.scale)
             };
             let points = self.points(&|row| judged.worst(row, &CompareRow::limit).and_then(margin));
             margins.curves.extend(dots(name, points));

@@ -3,9 +3,10 @@
 use lptn_network::LimitSeverity;
 use lptn_report::{Align, Column, decimals, duration, fixed, significant};
 use lptn_study::{CandidateLimit, CompareRow, HeatOver};
+use lptn_units::{Type, Unit};
 
-use crate::families;
 use crate::words::spaced;
+use crate::{families, scale};
 
 /// Cell of a value that is not known or does not exist.
 pub(super) const NOTHING: &str = "-";
@@ -72,11 +73,12 @@ impl Judged<'_> {
 pub(super) fn margins<'a>(
     (rows, fold): (&'a [CompareRow], bool),
     limit: &OfRow<'a>,
+    unit: &Unit,
 ) -> Vec<Column> {
     let column = |judged: &Judged<'_>| {
         let cell = |row| {
             let worst = judged.worst(row, limit)?;
-            Some(margin(worst) + &judged.index(&worst.name))
+            Some(margin(worst, unit) + &judged.index(&worst.name))
         };
         let cells = rows.iter().map(|row| cell(row).unwrap_or_else(|| NOTHING.to_owned()));
         Column::new(&judged.name, Align::Right, cells.collect())
@@ -85,24 +87,25 @@ pub(super) fn margins<'a>(
 }
 
 /// The same over the settled cycle; none if no candidate has both a run and a cycle.
-pub(super) fn settled_margins((rows, fold): (&[CompareRow], bool)) -> Vec<Column> {
+pub(super) fn settled_margins((rows, fold): (&[CompareRow], bool), unit: &Unit) -> Vec<Column> {
     let of_run = |row: &CompareRow| row.candidate().is_some_and(|c| c.heat.over == HeatOver::Run);
     match rows.iter().any(|row| row.settled().is_some() && of_run(row)) {
-        true => margins((rows, fold), &CompareRow::settled_limit),
+        true => margins((rows, fold), &CompareRow::settled_limit, unit),
         false => Vec::new(),
     }
 }
 
-fn margin(limit: &CandidateLimit) -> String {
+fn margin(limit: &CandidateLimit, unit: &Unit) -> String {
     if limit.is_open() {
         return NOTHING.into();
     }
-    let unit = spaced(&limit.ty.dimension.si_unit());
+    let (margin, unit) = scale::in_unit(limit.margin, Type::of(limit.ty.dimension), unit);
     let number = if limit.is_temperature() {
-        fixed(limit.margin, decimals(limit.margin, 3, 1).min(4))
+        fixed(margin, decimals(margin, 3, 1).min(4))
     } else {
-        significant(limit.margin, 3)
+        significant(margin, 3)
     };
+    let unit = spaced(&unit);
     match limit.broken_at {
         Some(time) => format!("{number}{unit} from {}", duration(time, 3)),
         None => format!("{number}{unit}"),

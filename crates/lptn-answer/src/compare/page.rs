@@ -8,6 +8,7 @@ use lptn_report::{
     Align, Column, Json, Page, Report, Rows, Standing, Text, TextTable, WIDTH, decimals, duration,
     fixed, plain, prefix, significant, stacked,
 };
+use lptn_solve::Table;
 use lptn_study::{Candidate, CandidateReport, CompareRow, HeatOut, HeatOver, compare_table};
 use lptn_units::Unit;
 use serde_json::Value;
@@ -31,10 +32,10 @@ impl CompareAnswer {
         let rows = &self.rows;
         text.section().table(overview(self));
         let sections = [
-            ("margin to", margins((rows, self.fold), &CompareRow::limit)),
-            ("settled margin to", settled_margins((rows, self.fold))),
+            ("margin to", margins((rows, self.fold), &CompareRow::limit, &self.unit)),
+            ("settled margin to", settled_margins((rows, self.fold), &self.unit)),
             ("report", numbers(rows, &self.unit)),
-            ("standard deviation", doubts::columns((rows, self.fold), &names(rows))),
+            ("standard deviation", doubts::columns((rows, self.fold), &names(rows), &self.unit)),
             (heat_over(rows), heat(rows, self.fold)),
             ("heat by path", shares((rows, self.fold), CompareRow::path_names(rows))),
         ];
@@ -59,7 +60,7 @@ impl Page for CompareAnswer {
     }
 
     fn rows(&self) -> Rows<'_> {
-        compare_table(&self.rows, &self.unit).into()
+        self.candidates().into()
     }
 
     fn figures(&self) -> Vec<Figure> {
@@ -86,7 +87,13 @@ impl Page for CompareAnswer {
             exit => messages::failed(json, exit, &errors)?,
         }
         json.optional("verdict", self.verdict())?;
-        json.table(&scale::table(&compare_table(&self.rows, &self.unit), &self.unit))
+        json.table(&self.candidates())
+    }
+}
+
+impl CompareAnswer {
+    fn candidates(&self) -> Table {
+        scale::table(compare_table(&self.rows, &self.unit), &self.unit)
     }
 }
 

@@ -4,7 +4,7 @@ use lptn_report::{decimals, fixed, significant};
 use lptn_study::{Candidate, CandidateLimit, CompareRow, SortKey, order};
 
 use super::{CompareAnswer, page};
-use crate::words::{count, spaced};
+use crate::words::{count, difference};
 
 /// Margins that differ by less, in K, are the same: a run is not more accurate.
 const SAME: f64 = 1e-3;
@@ -30,7 +30,7 @@ impl CompareAnswer {
         let lead = match (best.worst(), next.worst()) {
             (Some(a), Some(b)) => self.of_margins((name, a), (other, b), (first, second)),
             (Some(a), None) => {
-                format!("{name} has {}, {other} has no limit of a temperature", said(a))
+                format!("{name} has {}, {other} has no limit of a temperature", self.said(a))
             }
             _ => self.of_peaks((name, best), (other, next))?,
         };
@@ -50,8 +50,10 @@ impl CompareAnswer {
     ) -> String {
         let tighter = self.tighter(first, a).map_or(String::new(), |own| format!(" and {own}"));
         let head = match a.broken() {
-            true => format!("no candidate keeps its limits; {name} comes nearest, {}", said(a)),
-            false => format!("{name} has the largest margin, {}{tighter}", said(a)),
+            true => {
+                format!("no candidate keeps its limits; {name} comes nearest, {}", self.said(a))
+            }
+            false => format!("{name} has the largest margin, {}{tighter}", self.said(a)),
         };
         let by = a.margin - b.margin;
         let broken = |row: usize| self.rows[row].status() == "broken";
@@ -62,7 +64,7 @@ impl CompareAnswer {
             return format!("{head}, as much as {other}");
         }
         let way = if by > 0.0 { "more" } else { "less" };
-        format!("{head}, {} K {way} than {other}", kelvin(by.abs()))
+        format!("{head}, {} {way} than {other}", self.by(by.abs()))
     }
 
     /// A warning with less margin than the limit that decides.
@@ -70,7 +72,18 @@ impl CompareAnswer {
         let limits = &self.rows[row].candidate()?.limits;
         let closer =
             limits.iter().filter(|limit| limit.is_temperature() && limit.margin < than.margin);
-        closer.min_by(|a, b| a.margin.total_cmp(&b.margin)).map(said)
+        closer.min_by(|a, b| a.margin.total_cmp(&b.margin)).map(|limit| self.said(limit))
+    }
+
+    /// A difference of temperatures in K: "28.1 K".
+    fn by(&self, kelvin: f64) -> String {
+        let by = kelvin / self.unit.scale;
+        format!("{} {}", fixed(by, decimals(by, 3, 1).min(4)), difference(&self.unit))
+    }
+
+    /// "28.1 K to `lubricant`".
+    fn said(&self, limit: &CandidateLimit) -> String {
+        format!("{} to `{}`", self.by(limit.margin), limit.name)
     }
 
     /// The first limit that a row breaks.
@@ -88,7 +101,7 @@ impl CompareAnswer {
         let peak = format!("{} {}", significant(self.unit.from_si(a), 4), self.unit.text);
         let by = match b - a {
             by if by.abs() < SAME => format!("as {other}"),
-            by => format!("{} K below {other}", kelvin(by)),
+            by => format!("{} below {other}", self.by(by)),
         };
         Some(format!("{name} stays coolest, peak {peak}, {by}"))
     }
@@ -102,16 +115,6 @@ impl CompareAnswer {
             if more > 0 { format!(" and {}", count(more, "more value")) } else { String::new() };
         (!names.is_empty()).then(|| format!("they differ in {}{rest}", names.join(", ")))
     }
-}
-
-fn kelvin(by: f64) -> String {
-    fixed(by, decimals(by, 3, 1).min(4))
-}
-
-/// "28.1 K to `lubricant`".
-fn said(limit: &CandidateLimit) -> String {
-    let unit = spaced(&limit.ty.dimension.si_unit());
-    format!("{}{unit} to `{}`", kelvin(limit.margin), limit.name)
 }
 
 /// The receiver of heat whose share is most larger in the first candidate.

@@ -83,7 +83,7 @@ impl Page for CycleAnswer {
         json.member("search", &self.search())?;
         json.member("ledger", &self.run.ledger())?;
         let (network, unit) = (solution.network(), &self.run.task.unit);
-        json.optional("proven", proven::members(solution))?;
+        json.optional("proven", proven::members(solution, &self.run.task.unit))?;
         json.optional("proven_heat", proven::heat_members(solution))?;
         json.optional("limits", limits::members(network, &self.run.limits(), unit))?;
         let reports = over_time::members(network, solution.reports_over_time(), unit);
@@ -123,10 +123,11 @@ fn temperature_section(text: &mut Text, view: &CycleAnswer, rows: Vec<Row<'_>>) 
         });
     let bound = |row: &families::Row<Row<'_>>| {
         let all: Vec<f64> = row.all().filter_map(|(column, _)| view.bound(column)).collect();
-        all.into_iter().max_by(f64::total_cmp).map_or_else(String::new, rounded_up)
+        let most = all.into_iter().max_by(f64::total_cmp);
+        most.map_or_else(String::new, |kelvin| rounded_up(kelvin / unit.scale))
     };
     let table = match proven::is(&view.found.solution) {
-        true => table.right("proven error [K]", bound),
+        true => table.right(format!("proven error [{}]", difference(unit)), bound),
         false => table,
     };
     some_of(text, table, (all, "the hottest first; --select 'NAME.T' shows others"));

@@ -4,6 +4,7 @@ mod doubts;
 mod figure;
 mod follow;
 mod json;
+mod lacking;
 mod page;
 
 use std::sync::Arc;

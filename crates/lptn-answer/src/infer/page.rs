@@ -2,7 +2,7 @@
 
 use std::io;
 
-use lptn_fit::infer::{InferredColumn, InferredJump, InferredSensor, Known};
+use lptn_fit::infer::{InferredColumn, InferredCourse, InferredJump, InferredSensor, Known};
 use lptn_plot::Figure;
 use lptn_report::{
     Json, Page, Report, Rows, Text, TextTable, decimals, duration, fixed, significant,
@@ -111,7 +111,7 @@ impl InferAnswer {
     }
 
     fn is_whole(&self) -> bool {
-        self.found.courses.iter().all(|course| course.determined)
+        self.found.courses.iter().all(InferredCourse::is_determined)
     }
 
     /// Every moment: signals with the ends of their bands, temperatures with their deviations.
@@ -233,8 +233,13 @@ impl InferAnswer {
     }
 
     pub(super) fn sensor_name(&self, sensor: &InferredSensor) -> String {
-        let what = if sensor.gain { "gain" } else { "offset" };
-        format!("{}.{what}", self.task.sensors[sensor.sensor].name)
+        self.instrument((sensor.sensor, sensor.gain))
+    }
+
+    /// The name of an offset or a gain: `house.offset`.
+    pub(super) fn instrument(&self, (sensor, gain): (usize, bool)) -> String {
+        let what = if gain { "gain" } else { "offset" };
+        format!("{}.{what}", self.task.sensors[sensor].name)
     }
 
     fn sensors(&self) -> TextTable {
@@ -368,27 +373,16 @@ impl InferAnswer {
     }
 
     fn verdict(&self) -> String {
-        let known: Vec<bool> = self.found.courses.iter().map(|own| own.determined).collect();
-        let name = |j: usize| &self.task.sought[j].name;
-        let lacking: Vec<&str> =
-            (0..known.len()).filter(|j| !known[*j]).map(|j| &**name(j)).collect();
-        if lacking.is_empty() {
-            let text = (0..known.len()).map(|j| {
-                let end = self.at_end(j);
-                let (value, error) =
-                    with_error(self.shown(j, end.value), self.shown_difference(j, end.deviation));
-                format!(
-                    "{} = {value} ± {error} {} at the end",
-                    name(j),
-                    symbol(&self.units[j].text)
-                )
-            });
-            return text.collect::<Vec<_>>().join("; ");
+        if !self.is_whole() {
+            return self.lacking();
         }
-        format!(
-            "not determined: the record cannot distinguish {} from other unknowns; give an offset, \
-             a gain, the start or a parameter a smaller `±`, or measure another node",
-            lacking.join(", ")
-        )
+        let text = self.task.sought.iter().enumerate().map(|(j, sought)| {
+            let end = self.at_end(j);
+            let (value, error) =
+                with_error(self.shown(j, end.value), self.shown_difference(j, end.deviation));
+            let unit = symbol(&self.units[j].text);
+            format!("{} = {value} ± {error} {unit} at the end", sought.name)
+        });
+        text.collect::<Vec<_>>().join("; ")
     }
 }

@@ -7,7 +7,7 @@ use lptn_plot::Figure;
 use lptn_plot::figure::{Look, Moment};
 use lptn_report::{panels, proven_caption};
 use lptn_solve::{Table, name_matches};
-use lptn_units::Unit;
+use lptn_units::{Dimension, Type, Unit};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -164,7 +164,12 @@ impl Columns {
         let mut table = Table::of(&rows);
         table.column("time", "s", |row| record.time[*row]);
         for column in chosen {
-            let asked = scale.as_ref().filter(|_| is_point(column)).cloned();
+            let dimension = column.unit.ty.dimension;
+            let asked = scale.as_ref().filter(|_| dimension == Dimension::TEMPERATURE);
+            let asked = asked.map(|scale| match is_point(column) {
+                true => scale.clone(),
+                false => scale.shown(Type::of(dimension)),
+            });
             // a header in `°C` and a run in `degC` have one scale
             let usual = || is_point(column).then(|| input::scale(&column.unit)).flatten();
             let unit = &asked.or_else(usual).unwrap_or_else(|| column.unit.clone());

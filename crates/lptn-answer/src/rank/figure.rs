@@ -3,9 +3,9 @@
 use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Moment, Panel};
 use lptn_solve::Influence;
-use lptn_study::effect;
 
 use super::RankAnswer;
+use crate::words::difference;
 
 /// Values that are shown.
 const MOST: usize = 12;
@@ -22,9 +22,9 @@ impl RankAnswer {
     fn panel(&self, name: &str, influences: &[Influence]) -> Panel {
         let shown = &influences[..influences.len().min(MOST)];
         let names = shown.iter().map(|influence| self.name(influence)).collect();
-        let axes = (Axis::linear(self.node(), "K"), Axis::names(name, names));
+        let axes = (Axis::linear(self.node(), difference(&self.unit)), Axis::names(name, names));
         let mut panel = Panel::new(axes.0, axes.1);
-        let points = shown.iter().map(effect).zip((0..).map(f64::from)).collect();
+        let points = shown.iter().map(|of| self.effect(of)).zip((0..).map(f64::from)).collect();
         panel.curves.push(Curve::line("change", points).looks(Look::Dots));
         panel.moments.push(Moment { name: "none".into(), at: 0.0 });
         panel

@@ -9,7 +9,7 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, Files};
 use lptn_network::{Item, NodeId};
 use lptn_solve::{AdjointError, Influence};
-use lptn_study::{RankError, Ranking};
+use lptn_study::{RankError, Ranking, effect};
 use lptn_units::Unit;
 
 use crate::answer::Answer;
@@ -18,6 +18,7 @@ use crate::input::{self, Input};
 use crate::listener::Listener;
 use crate::operating_point;
 use crate::refused::{no_run, run_failed, steady_failed};
+use crate::words::spaced;
 
 /// Temperature of a node that is ranked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -139,6 +140,26 @@ impl RankAnswer {
             _ => return (influence.value, self.dimension(influence)),
         };
         (unit.from_si(influence.value), unit.text.clone())
+    }
+
+    /// The change of a value that is ranked: a share, or one of its unit if there is none.
+    fn change(&self, influence: &Influence) -> String {
+        match influence.absolute {
+            true => "+1 K".to_owned(),
+            false if influence.value.abs() > 0.0 => "+10 %".to_owned(),
+            false => format!("+1{}", spaced(&self.value(influence).1)),
+        }
+    }
+
+    /// The change of the temperature by that, in the unit of its differences.
+    fn effect(&self, influence: &Influence) -> f64 {
+        let kelvin = match influence.of {
+            Item::Parameter(id) if !influence.absolute && influence.value.abs() <= 0.0 => {
+                influence.change * self.input.unit_of(id).scale
+            }
+            _ => effect(influence),
+        };
+        kelvin / self.unit.scale
     }
 
     fn dimension(&self, influence: &Influence) -> String {

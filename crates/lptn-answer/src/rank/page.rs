@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use super::RankAnswer;
 use crate::about::{self, Known};
-use crate::words::{MOST_NODES, some_of, spaced};
+use crate::words::{MOST_NODES, difference, some_of, spaced};
 
 /// Letters of a name next to the other columns.
 const NAME_WIDTH: usize = 30;
@@ -38,8 +38,11 @@ impl RankAnswer {
                 let (value, unit) = self.value(i);
                 format!("{}{}", significant(value, 5), spaced(&unit))
             })
-            .left("changed by", |i| change(i).to_owned())
-            .right(format!("{} [K]", shortened(self.node(), NAME_WIDTH)), |i| signed(effect(i)))
+            .left("changed by", |i| self.change(i))
+            .right(
+                format!("{} [{}]", shortened(self.node(), NAME_WIDTH), difference(&self.unit)),
+                |i| signed(self.effect(i)),
+            )
             .into()
     }
 
@@ -75,6 +78,7 @@ impl RankAnswer {
             notes.push(format!("parameters are not ranked: {why}"));
         }
         notes.extend(self.without_effect());
+        notes.extend(self.of_zero());
         notes.extend(self.fixed());
         if let Some(why) = &self.ranking.differences {
             notes.push(format!("by differences of runs, since {why}"));
@@ -90,10 +94,27 @@ impl RankAnswer {
 
     /// Parameters that are numbers and change nothing.
     fn without_effect(&self) -> Option<String> {
-        let idle = self.ranking.parameters.iter().filter(|influence| !has_effect(influence));
+        let all = self.ranking.parameters.iter().chain(&self.ranking.zeros);
+        let idle = all.filter(|influence| !has_effect(influence));
         let names: Vec<String> = idle.map(|influence| self.name(influence)).collect();
         (!names.is_empty())
             .then(|| format!("no effect on {}: {}", self.node(), list_of_names(&names)))
+    }
+
+    /// Parameters whose value is 0, each with the effect of one of its unit.
+    fn of_zero(&self) -> impl Iterator<Item = String> {
+        let zeros = self.ranking.zeros.iter().filter(|influence| has_effect(influence));
+        zeros.map(|zero| {
+            let (effect, node) = (self.effect(zero), self.node());
+            let (by, way) = (effect.abs(), if effect > 0.0 { "warmer" } else { "colder" });
+            format!(
+                "`{}` is 0, of which 10 % is nothing: {} makes {node} {} {} {way}",
+                self.name(zero),
+                self.change(zero),
+                significant(by, 3),
+                difference(&self.unit),
+            )
+        })
     }
 
     /// Parameters that are not ranked, because a part of them cannot be added.
@@ -124,15 +145,19 @@ impl RankAnswer {
         };
         match most {
             Some(most) => format!("change first: {}", self.said(&most)),
+            None if self.ranking.zeros.iter().any(has_effect) => {
+                format!("{} responds to no value that is not 0", self.node())
+            }
             None => format!("{} responds to no value", self.node()),
         }
     }
 
     fn said(&self, influence: &Influence) -> String {
-        let warmer = effect(influence);
+        let warmer = self.effect(influence);
         let (more, cooler) = if warmer > 0.0 { ("less", -warmer) } else { ("more", warmer) };
         let name = self.name(influence);
-        format!("10 % {more} of {name} makes {} {} K colder", self.node(), significant(-cooler, 3))
+        let (by, unit) = (significant(-cooler, 3), difference(&self.unit));
+        format!("10 % {more} of {name} makes {} {by} {unit} colder", self.node())
     }
 
     /// The values that change something: parameters, then values of elements.
@@ -143,7 +168,8 @@ impl RankAnswer {
     }
 
     fn all(&self) -> Vec<(&'static str, &Influence)> {
-        let parameters = self.ranking.parameters.iter().map(|i| ("parameter", i));
+        let parameters = self.ranking.parameters.iter().chain(&self.ranking.zeros);
+        let parameters = parameters.map(|i| ("parameter", i));
         let elements = self.ranking.elements.iter();
         parameters.chain(elements.map(|i| (kind(i), i))).collect()
     }
@@ -154,9 +180,9 @@ impl RankAnswer {
         table.label("name", |(_, i)| self.name(i));
         table.label("kind", |(kind, _)| (*kind).to_owned());
         table.label("unit", |(_, i)| self.value(i).1);
-        table.label("changed_by", |(_, i)| change(i).to_owned());
+        table.label("changed_by", |(_, i)| self.change(i));
         table.column("value", "-", |(_, i)| self.value(i).0);
-        table.column("effect", "K", |(_, i)| effect(i));
+        table.column("effect", difference(&self.unit), |(_, i)| self.effect(i));
         table.done()
     }
 }
@@ -216,10 +242,6 @@ fn kind(influence: &Influence) -> &'static str {
         lptn_network::Item::Source(_) => "source",
         _ => "path",
     }
-}
-
-fn change(influence: &Influence) -> &'static str {
-    if influence.absolute { "+1 K" } else { "+10 %" }
 }
 
 fn signed(value: f64) -> String {

@@ -55,7 +55,7 @@ impl Page for KeptAnswer {
         table.column("run.signed", "K", |row| of_run(row, &|run| Some(run.signed)));
         table.column("run.good_from", "s", |row| of_run(row, &|run| run.good_from));
         table.column("any_load.max", "K", |row| row.load.map_or(f64::NAN, |load| load.0));
-        table.done().into()
+        scale::table(table.done(), &self.unit).into()
     }
 
     fn more(&self) -> Report {

@@ -40,7 +40,7 @@ impl Page for ReduceAnswer {
     }
 
     fn rows(&self) -> Rows<'_> {
-        self.reduction.table().into()
+        scale::table(self.reduction.table(), &self.unit).into()
     }
 
     fn no(&self) -> Option<String> {

@@ -22,8 +22,8 @@ use crate::families::Row;
 use crate::lumping::Detail;
 use crate::messages;
 use crate::steady::others;
-use crate::words::{MOST_NODES, symbol};
-use crate::{families, limits, lumping, over_time, proven, scale};
+use crate::words::{MOST_NODES, difference, symbol};
+use crate::{families, limits, lumping, over_time, proven};
 
 /// Characters of a curve.
 const CURVE: usize = 16;
@@ -81,7 +81,7 @@ impl Page for RunAnswer {
 
     fn figures(&self) -> Vec<Figure> {
         let tornado = |study: &uncertainty::Study| {
-            uncertainty::figure::tornado(self.solution.network(), &study.found)
+            uncertainty::figure::tornado((self.solution.network(), &self.task.unit), &study.found)
         };
         self.uncertainty().and_then(tornado).into_iter().chain([self.figure()]).collect()
     }
@@ -93,10 +93,10 @@ impl Page for RunAnswer {
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let (network, unit) = (self.solution.network(), &self.task.unit);
         self.task.input.head(json, &[self.bounds(), self.found()].concat())?;
-        json.table(&scale::table(&self.shown_table(), unit))?;
+        json.table(&self.shown_table())?;
         json.member("events", &events::json(&self.solution))?;
         json.member("ledger", &self.ledger())?;
-        json.optional("proven", proven::members(&self.solution))?;
+        json.optional("proven", proven::members(&self.solution, unit))?;
         json.optional("proven_heat", proven::heat_members(&self.solution))?;
         let uncertain = |study| uncertainty::files::json(network, study, unit);
         let windowed = !self.task.settings.windows.is_empty();
@@ -166,7 +166,9 @@ fn temperatures(of: &RunAnswer, nodes: &[NodeSummary]) -> TextTable {
         .right("at", |row| clock.text(row.item.peak.1, 3))
         .optional();
     let table = match proven::is(&of.solution) {
-        true => table.right("proven error [K]", |row| proven::cell(&of.solution, &row.item)),
+        true => table.right(format!("proven error [{}]", difference(unit)), |row| {
+            proven::cell((&of.solution, unit), &row.item)
+        }),
         false => table,
     };
     table

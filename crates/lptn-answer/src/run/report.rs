@@ -122,7 +122,9 @@ impl RunAnswer {
             };
             let absolute = network.parameters()[id.index()].ty.absolute;
             let step = if absolute { 1.0 } else { 0.01 * network.parameter_value(id) };
-            Some(slope * step).filter(|kelvin| kelvin.is_finite())
+            // no share of 0 is a change
+            let any = step.abs() > 0.0 || slope.abs() <= 0.0;
+            Some(slope * step).filter(|kelvin| any && kelvin.is_finite())
         };
         let name = &network.nodes()[node.index()].name;
         let of = match run.gradient {

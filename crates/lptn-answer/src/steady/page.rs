@@ -15,7 +15,7 @@ use crate::about::{self, Known};
 use crate::balance;
 use crate::limits;
 use crate::words::{difference, largest, some_of, symbol};
-use crate::{families, proven, ranges, scale};
+use crate::{families, proven, ranges};
 
 use super::SteadyAnswer;
 
@@ -273,17 +273,17 @@ impl Page for SteadyAnswer {
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let netlist = &self.input.netlist;
-        let table = scale::table(&self.table, &self.unit);
         let value = |c: &lptn_solve::Column| {
             (c.name.clone(), json!({ "value": c.values[0], "unit": c.unit }))
         };
         self.input.head(json, &[self.noted(), self.beside()].concat())?;
-        json.member("values", &table.columns().iter().map(value).collect::<Map<_, _>>())?;
+        json.member("values", &self.table.columns().iter().map(value).collect::<Map<_, _>>())?;
         json.optional("limits", limits::members(&netlist.network, &self.limits, &self.unit))?;
         let outside = ranges::members(&netlist.network, &self.steady.trust.out_of_range, false);
         json.optional("out_of_range", outside)?;
         let proven = self.proven.iter().flatten().next();
-        let proven = proven.map(|bounds| proven::steady_members(&netlist.network, bounds));
+        let proven =
+            proven.map(|bounds| proven::steady_members(&netlist.network, bounds, &self.unit));
         json.optional("proven", proven)?;
         json.optional(
             "balance",

@@ -10,7 +10,7 @@ use lptn_report::write_rows;
 use lptn_solve::PeriodicError;
 use lptn_study::sweep::{Cases, SweepError, SweepTask};
 use lptn_study::{FileHash, SiValue};
-use lptn_units::{Problem as _, Type, Unit};
+use lptn_units::{Problem as _, Unit};
 use serde_json::{Value, json};
 
 use super::lines::{Lines, read_row};
@@ -125,14 +125,12 @@ impl SweepQuestion {
         let reports = study
             .reports
             .iter()
-            .map(|report| Column { name: report.name.clone(), unit: unit_of(report.ty, &unit) });
+            .map(|report| Column { name: report.name.clone(), unit: unit.shown(report.ty) });
         let mut columns: Vec<Column> = axes.chain(reports).collect();
         let task = SweepTask::new(netlist.clone(), study.clone(), cases);
         let task = task.map_err(|error| refused(&input, study, &error))?;
         let margins = task.limits().types().iter();
-        columns.extend(
-            margins.map(|ty| Column { name: MARGIN.to_owned(), unit: unit_of(*ty, &unit) }),
-        );
+        columns.extend(margins.map(|ty| Column { name: MARGIN.to_owned(), unit: unit.shown(*ty) }));
         let ranged = !netlist.network.ranged().is_empty();
         let (section, axes) = (format!("sweep.{}", study.name), task.cases().parameters().len());
         let names = columns.iter().take(axes).map(|axis| axis.name.as_str());
@@ -256,14 +254,6 @@ impl SweepAsked {
             "ranged": self.ranged,
             "identity": self.identity(),
         })
-    }
-}
-
-/// The unit of a report's cells: temperatures on their scale, all else in SI.
-fn unit_of(ty: Type, temperature: &Unit) -> Unit {
-    match ty.absolute {
-        true => temperature.clone(),
-        false => Unit { text: ty.dimension.si_unit(), scale: 1.0, offset: 0.0, ty },
     }
 }
 

@@ -197,7 +197,7 @@ fn named(head: &Head, asked: &RecordName) -> Result<CsvColumn, Diagnostic> {
 /// One of all columns; see [`RecordQuery::of_run`].
 pub(crate) fn of_any(head: &Head, index: usize, of_run: bool) -> Result<CsvColumn, Diagnostic> {
     let (name, nobody) = (&head.columns[index].name, Asked::default());
-    let difference = of_run && head.columns[index].unit.as_deref() == Some("K");
+    let difference = of_run && matches!(head.columns[index].unit.as_deref(), Some("K" | "degR"));
     let wanted = (difference && !name.ends_with(".T")).then_some(Type::of(Dimension::TEMPERATURE));
     match head.columns[..index].iter().position(|header| header.name == *name) {
         Some(first) => Err(head.two_columns(first, index, &nobody)),

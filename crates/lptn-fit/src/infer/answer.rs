@@ -14,7 +14,7 @@ use crate::infer::rounds::{Settled, settle};
 use crate::infer::strength::Strength;
 use crate::infer::surprise;
 use crate::infer::task::{InferTask, Uncertain};
-use crate::kalman::Smoother;
+use crate::kalman::Augmented;
 
 /// Infers time histories from a record.
 ///
@@ -26,13 +26,13 @@ use crate::kalman::Smoother;
 /// # Errors
 /// [`InferError`]
 pub fn infer(task: &InferTask, observer: &InferObserver<'_>) -> Result<Inferred, InferError> {
-    let mut settled = settle(task, observer)?;
+    let settled = settle(task, observer)?;
     let mut found = told(task, &settled);
-    let Settled { model, strength, free, .. } = &mut settled;
+    let Settled { model, strength, begins, .. } = &settled;
     let sizes = (0..task.sought.len()).map(|j| size(task.sought[j].positive, &found.courses[j]));
     let sizes: Vec<f64> = sizes.collect();
-    let known = determined::courses(task, free, (model, strength), &sizes);
-    found.courses.iter_mut().zip(known).for_each(|(course, known)| course.determined = known);
+    let rivals = determined::courses((model, begins), strength, &sizes);
+    found.courses.iter_mut().zip(rivals).for_each(|(course, rivals)| course.rivals = rivals);
     Ok(found)
 }
 
@@ -123,11 +123,11 @@ impl<'a> Asked<'a> {
 
     /// Means and deviations of all requested values: for each moment coordinates and temperatures,
     /// then the integral of each time history.
-    fn of(&self, smoother: &Smoother) -> Vec<(f64, f64)> {
+    fn of(&self, augmented: &Augmented) -> Vec<(f64, f64)> {
         let (model, states) = (&self.settled.model, &self.settled.model.states);
         let (size, count) = (self.of_moment(), self.settled.moments.times.len());
         let mut all = vec![(0.0, 0.0); size * count + states.sought];
-        smoother.backwards(|k, told| {
+        augmented.backwards(|k, told| {
             let moment = &mut all[k * size..][..size];
             let coordinates = coordinates(self.task, &self.settled.reference, k);
             for (j, own) in coordinates.iter().enumerate() {
@@ -138,17 +138,17 @@ impl<'a> Asked<'a> {
                 let (moved, deviation) = told.of(model.weights(k, id.index()));
                 *known = (model.reference[k][id.index()] + moved, deviation);
             }
+            if k + 1 == count {
+                let areas = (0..states.sought).map(|j| told.of(&[(states.area(j), 1.0)]));
+                all[size * count..].iter_mut().zip(areas).for_each(|(known, area)| *known = area);
+            }
         });
-        let last = smoother.filter().state();
-        for (j, known) in all[size * count..].iter_mut().enumerate() {
-            *known = last.of(&[(states.area(j), 1.0)]);
-        }
         all
     }
 
     fn mixed(&self) -> Vec<(f64, f64)> {
         let Settled { model, strength, .. } = self.settled;
-        mixture((self.task, model, strength), |smoother| self.of(smoother))
+        mixture((self.task, model, strength), |augmented| self.of(augmented))
     }
 
     fn course(&self, j: usize, mixed: &[(f64, f64)], still: (Known, f64)) -> InferredCourse {
@@ -170,7 +170,7 @@ impl<'a> Asked<'a> {
         };
         InferredCourse {
             band: (0..count).map(band).collect(),
-            determined: true,
+            rivals: None,
             mean: (!positive).then(mean),
             before: self.before(j),
             intensity: self.settled.strength.intensities[2 * j],

@@ -1,10 +1,13 @@
 //! Check that a record determines a time history and that no other unknown hides it.
 
+use lptn_network::NodeId;
+
+use crate::infer::inferred::Rival;
 use crate::infer::model::Model;
+use crate::infer::prior::{Before, Begins, Root};
 use crate::infer::states::States;
 use crate::infer::strength::Strength;
-use crate::infer::task::InferTask;
-use crate::network::Certainty;
+use crate::kalman::{Augmented, Part};
 
 /// An unknown state is given a wide deviation. If doubling that deviation widens a band by more
 /// than this factor, the band depends on it.
@@ -13,66 +16,76 @@ const HANGS: f64 = 1.5;
 /// Values with a `±` dominate a band that is this many times as wide as without them.
 const HIDDEN: f64 = 2.0;
 
-/// True for each time history that is determined, by its band at the narrowest moment. The band
-/// must not depend on an unknown state, whose deviation is an assumption. Values with a `±` must
-/// not make it wider than the size of the time history, `sizes`.
+/// Unknowns are named if they move by more than this part of the one that moves most.
+const SHARE: f64 = 0.1;
+
+/// For each time history `None` if it is determined, by its band at the narrowest moment, else the
+/// unknowns that it cannot be distinguished from. The band must not depend on an unknown state,
+/// whose deviation is an assumption. Values with a `±` must not make it wider than the size of the
+/// time history, `sizes`.
 pub(crate) fn courses(
-    task: &InferTask,
-    free: &[bool],
-    (model, strength): (&mut Model, &Strength),
+    (model, begins): (&Model, &Begins),
+    strength: &Strength,
     sizes: &[f64],
-) -> Vec<bool> {
-    let own = deviations(model, strength);
-    let wider = unknown(task, &model.states, free);
-    let wide = scaled(model, strength, |place| if wider[place] { 2.0 } else { 1.0 });
-    let sought: Vec<usize> = (0..sizes.len()).map(|j| model.states.course(j)).collect();
-    let exact = scaled(model, strength, |place| f64::from(u8::from(sought.contains(&place))));
-    let told = |(j, size): (usize, &f64)| {
-        let narrowest = own[j].iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1));
-        let Some((k, deviation)) = narrowest else { return false };
-        let hangs = wide[j][k] > HANGS * deviation;
-        let hidden = *deviation > HIDDEN * exact[j][k] && deviation > size;
-        deviation.is_finite() && !hangs && !hidden
+) -> Vec<Option<Vec<Rival>>> {
+    let augmented = model.augmented(strength);
+    let by = |factor: &dyn Fn(Before) -> f64| {
+        augmented.unknowns(model.roots.iter().map(|root| factor(root.before)).collect())
     };
-    sizes.iter().enumerate().map(told).collect()
+    let wide = by(&|before| if before == Before::Spread { 1.0 } else { 2.0 });
+    let exact = by(&|before| if before == Before::Sought { 1.0 } else { 0.0 });
+    let told = |((j, part), size): ((usize, Part), &f64)| {
+        let of = |unknowns: &crate::kalman::Unknowns| unknowns.known(&part).1;
+        let deviation = of(augmented.own());
+        let hangs = of(&wide) > HANGS * deviation;
+        let hidden = deviation > HIDDEN * of(&exact) && deviation > *size;
+        let known = deviation.is_finite() && !hangs && !hidden;
+        (!known).then(|| rivals((model, begins), &augmented.own().follow(&part), j))
+    };
+    narrowest(&augmented, &model.states).into_iter().enumerate().zip(sizes).map(told).collect()
 }
 
-/// The states without prior knowledge; `free` marks those of the bodies.
-fn unknown(task: &InferTask, states: &States, free: &[bool]) -> Vec<bool> {
-    let mut all = vec![false; states.count()];
-    free.iter().enumerate().for_each(|(i, free)| all[i] = *free);
-    let started = free.contains(&true);
-    let slow = states.slow.iter().filter_map(|(column, _)| states.shown(*column));
-    slow.for_each(|place| all[place] = started);
-    (0..states.sought).for_each(|j| all[states.course(j)] = true);
-    for (r, read) in states.reads.iter().enumerate() {
-        let sensor = &task.sensors[read.sensor];
-        let value = if read.gain { sensor.gain } else { sensor.offset };
-        all[states.read(r)] = value.certainty == Certainty::Free;
-    }
-    all
-}
-
-/// The deviations with the prior deviation of each state multiplied by a factor.
-fn scaled(model: &mut Model, strength: &Strength, by: impl Fn(usize) -> f64) -> Vec<Vec<f64>> {
-    let (own, count) = (model.prior.clone(), model.states.count());
-    for (at, covariance) in model.prior.covariance.iter_mut().enumerate() {
-        *covariance *= by(at / count) * by(at % count);
-    }
-    let found = deviations(model, strength);
-    model.prior = own;
-    found
-}
-
-/// Standard deviation of the coordinate of each time history at every moment.
-fn deviations(model: &Model, strength: &Strength) -> Vec<Vec<f64>> {
-    let (smoother, _) = model.smoothed(strength);
-    let states = &model.states;
-    let mut all = vec![vec![0.0; model.times.len()]; states.sought];
-    smoother.backwards(|k, told| {
-        for (j, course) in all.iter_mut().enumerate() {
-            course[k] = told.of(&[(states.course(j), 1.0)]).1;
+/// Each time history at the moment at which it is known best.
+fn narrowest(augmented: &Augmented, states: &States) -> Vec<Part> {
+    let mut best: Vec<Option<(f64, Part)>> = vec![None; states.sought];
+    augmented.backwards(|_, estimate| {
+        for (j, best) in best.iter_mut().enumerate() {
+            let part = estimate.part(&[(states.course(j), 1.0)]);
+            let deviation = augmented.own().known(&part).1;
+            if best.as_ref().is_none_or(|(least, _)| deviation < *least) {
+                *best = Some((deviation, part));
+            }
         }
     });
-    all
+    best.into_iter().flatten().map(|(_, part)| part).collect()
+}
+
+/// The other unknowns that move if a time history does, those that move most first. `follow` is the
+/// movement of each root.
+fn rivals((model, begins): (&Model, &Begins), follow: &[f64], j: usize) -> Vec<Rival> {
+    let moves = |place: usize| {
+        let of = |root: &Root| root.of[place];
+        let whole = model.roots.iter().map(|root| of(root).powi(2)).sum::<f64>().sqrt();
+        let moved: f64 = model.roots.iter().zip(follow).map(|(root, by)| of(root) * by).sum();
+        moved.abs() / whole
+    };
+    let others =
+        unknowns((model, begins)).into_iter().filter(|(_, rival)| *rival != Rival::Sought(j));
+    let mut all: Vec<(f64, Rival)> = others.map(|(place, rival)| (moves(place), rival)).collect();
+    all.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let least = SHARE * all.first().map_or(0.0, |(most, _)| *most);
+    all.into_iter().filter(|(moved, _)| *moved >= least).map(|(_, rival)| rival).collect()
+}
+
+/// The states that are not known exactly, with their names.
+fn unknowns((model, begins): (&Model, &Begins)) -> Vec<(usize, Rival)> {
+    let states = &model.states;
+    let start = |(i, node): (usize, &NodeId)| begins.unknown[i].then_some((i, Rival::Start(*node)));
+    let starts = begins.bodies.iter().enumerate().filter_map(start);
+    let courses = (0..states.sought).map(|j| (states.course(j), Rival::Sought(j)));
+    let parameters = (0..states.uncertain).map(|k| (states.parameter(k), Rival::Parameter(k)));
+    let reads = states.reads.iter().enumerate();
+    let reads = reads
+        .map(|(r, read)| (states.read(r), Rival::Sensor { sensor: read.sensor, gain: read.gain }));
+    starts.chain(courses).chain(parameters).chain(reads).collect()
 }

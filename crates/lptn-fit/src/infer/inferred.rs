@@ -42,9 +42,10 @@ pub struct InferredCourse {
     /// Its most probable value at each moment, in SI units, and the band that contains it with a
     /// probability of 95 %.
     pub band: Vec<Band>,
-    /// True if the record determines it. The band must not depend on the deviation assumed for an
-    /// unknown value. Values with a `±` must not make it wider than the size of the time history.
-    pub determined: bool,
+    /// `None` if the record determines it, else the unknowns that the record cannot distinguish it
+    /// from. The band must not depend on the deviation assumed for an unknown value. Values with a
+    /// `±` must not make it wider than the size of the time history.
+    pub rivals: Option<Vec<Rival>>,
     /// Its mean over the record; `None` if its logarithm walks.
     pub mean: Option<Known>,
     /// Prior value at the start, or of its logarithm: almost without information.
@@ -57,6 +58,31 @@ pub struct InferredCourse {
     /// (C. R. Rao, Bull. Calcutta Math. Soc. 37 (1945) 81; H. Cramer, 1946), and the logarithm of
     /// the probability density of the record then.
     pub still: (Known, f64),
+}
+
+/// An unknown that the record may not distinguish from a time history.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Rival {
+    /// Another time history, by its index in the task.
+    Sought(usize),
+    /// A parameter with a `±`, by its index among the uncertain ones of the task.
+    Parameter(usize),
+    /// A value of an instrument.
+    Sensor {
+        /// Index of the sensor in the task.
+        sensor: usize,
+        /// True for its gain; false for its offset.
+        gain: bool,
+    },
+    /// The temperature of a node at the start.
+    Start(NodeId),
+}
+
+impl InferredCourse {
+    /// True if the record determines it.
+    pub fn is_determined(&self) -> bool {
+        self.rivals.is_none()
+    }
 }
 
 /// Estimate of a time history at a moment, in SI units.

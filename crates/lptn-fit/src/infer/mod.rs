@@ -44,7 +44,7 @@ pub use answer::infer;
 pub use error::InferError;
 pub use follow::{Followed, Follower, Row, Unexpected};
 pub use inferred::{
-    Band, Inferred, InferredColumn, InferredCourse, InferredJump, InferredSensor, Known,
+    Band, Inferred, InferredColumn, InferredCourse, InferredJump, InferredSensor, Known, Rival,
 };
 pub use reference::InferObserver;
 pub use task::{Drift, InferTask, Sought, Start, Uncertain};

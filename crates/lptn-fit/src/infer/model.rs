@@ -7,12 +7,14 @@ use lptn_network::NodeId;
 use crate::infer::discrete::Discrete;
 use crate::infer::error::InferError;
 use crate::infer::linear::{Linear, Linearise, Systems, measured};
-use crate::infer::prior::Begins;
+use crate::infer::prior::{Begins, Root};
 use crate::infer::reference::{InferObserver, Moments, Ran, Reference};
 use crate::infer::states::States;
 use crate::infer::strength::{Jump, Noise, Strength};
 use crate::infer::task::InferTask;
-use crate::kalman::{Fade, Filter, Gaussian, Innovation, Reading, Smoother, Step, Weights};
+use crate::kalman::{
+    Augmented, Fade, Filter, Gaussian, Innovation, Reading, Smoother, Step, Weights,
+};
 
 /// Largest number of bodies that are followed.
 const MOST: usize = 100;
@@ -25,6 +27,9 @@ const FAR: f64 = 30.0;
 
 /// Standard deviation of a jump, in sizes of its time history.
 const JUMP: f64 = 3.0;
+
+/// Surprise of each reading of each moment, with its column.
+type Surprises = Vec<Vec<(usize, Innovation)>>;
 
 /// The model that the readings are compared with.
 pub(crate) struct Model {
@@ -41,6 +46,8 @@ pub(crate) struct Model {
     /// Readings at each moment.
     readings: Vec<Vec<Read>>,
     pub(crate) prior: Gaussian,
+    /// The unknowns of the prior.
+    pub(crate) roots: Vec<Root>,
     /// Size of each time history in its coordinate, from all readings.
     pub(crate) sizes: Vec<f64>,
     /// The moments in s.
@@ -96,6 +103,7 @@ impl Model {
             steps,
             readings,
             prior: Gaussian { mean: Vec::new(), covariance: Vec::new() },
+            roots: Vec::new(),
             sizes: Vec::new(),
             times: times.clone(),
             states,
@@ -116,7 +124,8 @@ impl Model {
             .collect();
         let start = start(&begins.bodies, &model.reference[0]);
         let at = (reference, own, start.as_slice());
-        model.prior = begins.prior((task, &model.states), at, (&courses, &far), &exposed);
+        let prior = begins.prior((task, &model.states), at, (&courses, &far), &exposed);
+        (model.prior, model.roots) = prior;
         Ok(model)
     }
 
@@ -127,7 +136,10 @@ impl Model {
 
     /// The prior before any reading, with these noises.
     pub(crate) fn begin(&self, noises: &[Noise]) -> Gaussian {
-        let mut prior = self.prior.clone();
+        self.started(self.prior.clone(), noises)
+    }
+
+    fn started(&self, mut prior: Gaussian, noises: &[Noise]) -> Gaussian {
         let side = prior.mean.len() + 1;
         for column in &self.states.drifts {
             let place = self.states.drift(*column);
@@ -208,6 +220,7 @@ impl Model {
                 .map(|(all, time)| all.iter().map(|one| read(*time, one)).collect())
                 .collect(),
             prior: Gaussian { mean: longer(&self.prior.mean), covariance },
+            roots: Vec::new(),
             steps: self.steps.clone(),
             reference: Vec::new(),
             shown: Vec::new(),
@@ -244,11 +257,21 @@ impl Model {
     }
 
     /// The estimates of every moment, and the surprise of each reading.
-    pub(crate) fn smoothed(
-        &self,
-        strength: &Strength,
-    ) -> (Smoother, Vec<Vec<(usize, Innovation)>>) {
-        let mut smoother = Smoother::new(self.begin(&strength.noises));
+    pub(crate) fn smoothed(&self, strength: &Strength) -> (Smoother, Surprises) {
+        self.smoothed_from(self.begin(&strength.noises), strength)
+    }
+
+    /// The estimates of every moment, with the unknowns of the prior outside the covariance.
+    pub(crate) fn augmented(&self, strength: &Strength) -> Augmented {
+        let Gaussian { mean, covariance } = &self.prior;
+        let known = Gaussian { mean: mean.clone(), covariance: vec![0.0; covariance.len()] };
+        let known = self.started(known, &strength.noises);
+        let roots = self.roots.iter().map(|root| root.of.as_slice());
+        Augmented::new(self.smoothed_from(known, strength).0, roots)
+    }
+
+    fn smoothed_from(&self, prior: Gaussian, strength: &Strength) -> (Smoother, Surprises) {
+        let mut smoother = Smoother::new(prior);
         let mut walks = Walks { model: self, strength, last: None };
         let mut surprises = Vec::with_capacity(self.readings.len());
         for (k, readings) in self.readings.iter().enumerate() {

@@ -10,7 +10,7 @@ use crate::infer::model::Model;
 use crate::infer::search::open_walks;
 use crate::infer::strength::Strength;
 use crate::infer::task::InferTask;
-use crate::kalman::Smoother;
+use crate::kalman::Augmented;
 
 /// Number of intensities that are evaluated for each walk.
 const POINTS: usize = 8;
@@ -91,9 +91,9 @@ impl Axis<'_> {
 /// Means and standard deviations of the values that `asked` returns.
 pub(crate) fn mixture(
     (task, model, most): (&InferTask, &Model, &Strength),
-    asked: impl Fn(&Smoother) -> Vec<(f64, f64)>,
+    asked: impl Fn(&Augmented) -> Vec<(f64, f64)>,
 ) -> Vec<(f64, f64)> {
-    let of = |strength: &Strength| asked(&model.smoothed(strength).0);
+    let of = |strength: &Strength| asked(&model.augmented(strength));
     let mut own: Option<Vec<(f64, f64)>> = None;
     let mut mixed = Mixed::default();
     for (strength, share) in possible(task, model, most) {

@@ -1,8 +1,8 @@
 //! The prior at the start, before anything is read.
 //!
-//! The first rows are known to about 1e-9 of a standard deviation, because the prior is 30 times
-//! wider than needed to explain the record. A wider prior would cost digits where the smoother
-//! removes it; a narrower one would influence the result.
+//! It is 30 times wider than needed to explain the record. A narrower one would influence the result.
+//! Estimates of rows take the unknowns apart ([`crate::kalman::Augmented`]): in the covariance, a wide
+//! prior would cost the digits of the first rows.
 
 use lptn_network::NodeId;
 
@@ -11,6 +11,7 @@ use crate::infer::reference::{Changed, Reference};
 use crate::infer::states::{States, UNKNOWN_KELVIN};
 use crate::infer::task::{InferTask, Start, Uncertain};
 use crate::kalman::Gaussian;
+use crate::network::Certainty;
 
 /// The start of the network itself, with its uncertain parameters at their own values.
 #[derive(Clone, Debug)]
@@ -23,6 +24,25 @@ pub(crate) struct Begins {
     pub(crate) unknown: Vec<bool>,
     /// Node of each body.
     pub(crate) bodies: Vec<NodeId>,
+}
+
+/// An unknown at the start, in its prior standard deviation.
+#[derive(Clone, Debug)]
+pub(crate) struct Root {
+    /// Change of the states.
+    pub(crate) of: Vec<f64>,
+    pub(crate) before: Before,
+}
+
+/// Knowledge of an unknown before the record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Before {
+    /// None: it is an estimated time history.
+    Sought,
+    /// None: its deviation is an assumption.
+    Nothing,
+    /// Its standard deviation.
+    Spread,
 }
 
 impl Begins {
@@ -72,21 +92,48 @@ impl Begins {
         (reference, own, start): (&Reference, &Reference, &[f64]),
         (courses, spreads): (&[f64], &[f64]),
         shown: &[Vec<(usize, f64)>],
-    ) -> Gaussian {
+    ) -> (Gaussian, Vec<Root>) {
         let count = states.count();
         let mut mean = vec![0.0; count];
-        let mut roots: Vec<Vec<f64>> = Vec::new();
-        let mut root = |entries: &[(usize, f64)]| {
-            let mut root = vec![0.0; count];
-            entries.iter().for_each(|(place, spread)| root[*place] = *spread);
-            roots.push(root);
-        };
-        for (i, unknown) in self.unknown.iter().enumerate() {
-            if *unknown {
-                root(&[(i, UNKNOWN_KELVIN)]);
-            }
-            mean[i] = self.own[i] - start[i];
+        for (i, own) in self.own.iter().enumerate() {
+            mean[i] = own - start[i];
         }
+        for k in 0..states.uncertain {
+            let (known, now) = (own.parameters[k], reference.parameters[k]);
+            mean[states.parameter(k)] = task.uncertain[k].beyond(known, now);
+        }
+        for (j, course) in courses.iter().enumerate() {
+            mean[states.course(j)] = *course;
+        }
+        for (r, read) in states.reads.iter().enumerate() {
+            mean[states.read(r)] = read.known.0 - reference.reads[r];
+        }
+        let mut roots = self.roots((task, states), spreads);
+        for all in roots.iter_mut().map(|root| &mut root.of).chain([&mut mean]) {
+            for ((column, _), of) in states.slow.iter().zip(shown) {
+                let rest = of.iter().map(|(place, weight)| weight * all[*place]).sum();
+                states.shown(*column).into_iter().for_each(|place| all[place] = rest);
+            }
+        }
+        let mut covariance = vec![0.0; count * count];
+        for Root { of, .. } in &roots {
+            for (row, a) in covariance.chunks_exact_mut(count).zip(of) {
+                row.iter_mut().zip(of).for_each(|(p, b)| *p += a * b);
+            }
+        }
+        (Gaussian { mean, covariance }, roots)
+    }
+
+    /// The unknowns, without their effect on slow instruments.
+    fn roots(&self, (task, states): (&InferTask, &States), spreads: &[f64]) -> Vec<Root> {
+        let mut roots: Vec<Root> = Vec::new();
+        let mut root = |before: Before, entries: &[(usize, f64)]| {
+            let mut of = vec![0.0; states.count()];
+            entries.iter().for_each(|(place, spread)| of[*place] = *spread);
+            roots.push(Root { of, before });
+        };
+        let unknown = self.unknown.iter().enumerate().filter(|(_, unknown)| **unknown);
+        unknown.for_each(|(i, _)| root(Before::Nothing, &[(i, UNKNOWN_KELVIN)]));
         // correlated parameters are sums of independent ones; if that fails, all are independent
         let uncertain = states.uncertain;
         let factor = task.together.factor().unwrap_or_else(|_| identity(uncertain));
@@ -99,33 +146,19 @@ impl Begins {
             };
             let mut entries: Vec<(usize, f64)> = known.map(|i| (i, of(i))).collect();
             entries.extend((0..uncertain).map(|k| (states.parameter(k), share(k))));
-            root(&entries);
+            root(Before::Spread, &entries);
         }
-        for k in 0..uncertain {
-            let (known, now) = (own.parameters[k], reference.parameters[k]);
-            mean[states.parameter(k)] = task.uncertain[k].beyond(known, now);
-        }
-        for (j, (course, spread)) in courses.iter().zip(spreads).enumerate() {
-            root(&[(states.course(j), *spread)]);
-            mean[states.course(j)] = *course;
+        for (j, spread) in spreads.iter().enumerate() {
+            root(Before::Sought, &[(states.course(j), *spread)]);
         }
         for (r, read) in states.reads.iter().enumerate() {
-            root(&[(states.read(r), read.known.1)]);
-            mean[states.read(r)] = read.known.0 - reference.reads[r];
+            let sensor = &task.sensors[read.sensor];
+            let value = if read.gain { sensor.gain } else { sensor.offset };
+            let free = value.certainty == Certainty::Free;
+            let before = if free { Before::Nothing } else { Before::Spread };
+            root(before, &[(states.read(r), read.known.1)]);
         }
-        for all in roots.iter_mut().chain([&mut mean]) {
-            for ((column, _), of) in states.slow.iter().zip(shown) {
-                let rest = of.iter().map(|(place, weight)| weight * all[*place]).sum();
-                states.shown(*column).into_iter().for_each(|place| all[place] = rest);
-            }
-        }
-        let mut covariance = vec![0.0; count * count];
-        for root in &roots {
-            for (row, a) in covariance.chunks_exact_mut(count).zip(root) {
-                row.iter_mut().zip(root).for_each(|(p, b)| *p += a * b);
-            }
-        }
-        Gaussian { mean, covariance }
+        roots
     }
 }
 

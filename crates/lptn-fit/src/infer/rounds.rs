@@ -9,7 +9,6 @@ use crate::infer::prior::Begins;
 use crate::infer::reference::{InferObserver, Moments, Reference};
 use crate::infer::strength::Strength;
 use crate::infer::task::InferTask;
-use crate::kalman::Gaussian;
 use crate::network::{Certainty, unknown_input};
 
 /// Largest number of rounds.
@@ -35,8 +34,7 @@ pub(crate) struct Settled {
     pub(crate) reference: Reference,
     pub(crate) model: Model,
     pub(crate) strength: Strength,
-    /// True for each body whose start is unknown.
-    pub(crate) free: Vec<bool>,
+    pub(crate) begins: Begins,
     pub(crate) rounds: usize,
 }
 
@@ -63,13 +61,11 @@ pub(crate) fn settle(
             strength = most_likely((task, &model), start);
             likely = model.log_likelihood(&strength);
         }
-        let (smoother, _) = model.smoothed(&strength);
-        let smoothed = smoother.smoothed();
+        let smoothed = smoothed(&model, &strength);
         let mut next = moved((task, &begins), (&reference, &model), &smoothed, 1.0);
         let far = distance((task, &model), (&reference, &next), &smoothed);
         if far < SETTLED {
-            let free = begins.unknown.clone();
-            return Ok(Settled { moments, reference, model, strength, free, rounds: round });
+            return Ok(Settled { moments, reference, model, strength, begins, rounds: round });
         }
         let mut there = at(&next, &sizes);
         for halves in 1..=HALVES {
@@ -84,6 +80,20 @@ pub(crate) fn settle(
         (model, reference) = (there?, next);
     }
     Err(InferError::NotSettled { rounds: MOST })
+}
+
+/// Mean and standard deviation of each state at a moment.
+type Known = Vec<(f64, f64)>;
+
+/// The states at every moment.
+fn smoothed(model: &Model, strength: &Strength) -> Vec<Known> {
+    let count = model.states.count();
+    let mut all: Vec<Known> = Vec::with_capacity(model.times.len());
+    model.augmented(strength).backwards(|_, estimate| {
+        all.push((0..count).map(|i| estimate.of(&[(i, 1.0)])).collect());
+    });
+    all.reverse();
+    all
 }
 
 /// Values and start of the network itself.
@@ -135,7 +145,7 @@ fn own(task: &InferTask, moments: &Moments) -> Result<Reference, InferError> {
 fn moved(
     (task, begins): (&InferTask, &Begins),
     (reference, model): (&Reference, &Model),
-    smoothed: &[Gaussian],
+    smoothed: &[Known],
     share: f64,
 ) -> Reference {
     let states = &model.states;
@@ -143,20 +153,20 @@ fn moved(
     for (k, known) in smoothed.iter().enumerate() {
         let coordinates = coordinates(task, reference, k);
         for (j, sought) in task.sought.iter().enumerate() {
-            let there = coordinates[j] + share * known.mean[states.course(j)];
+            let there = coordinates[j] + share * known[states.course(j)].0;
             next.courses[j][k] = if sought.positive { there.exp() } else { there };
         }
     }
-    let (first, last) = (&smoothed[0].mean, &smoothed[smoothed.len() - 1].mean);
+    let (first, last) = (&smoothed[0], &smoothed[smoothed.len() - 1]);
     for (k, own) in task.uncertain.iter().enumerate() {
-        next.parameters[k] = own.moved(next.parameters[k], share * last[states.parameter(k)]);
+        next.parameters[k] = own.moved(next.parameters[k], share * last[states.parameter(k)].0);
     }
     for (r, read) in next.reads.iter_mut().enumerate() {
-        *read += share * last[states.read(r)];
+        *read += share * last[states.read(r)].0;
     }
     let bodies = begins.bodies.iter().enumerate().filter(|(i, _)| begins.may_move(*i));
     let start = |(i, id): (usize, &lptn_network::NodeId)| {
-        (*id, model.reference[0][id.index()] + share * first[i])
+        (*id, model.reference[0][id.index()] + share * first[i].0)
     };
     next.initial = bodies.map(start).collect();
     next
@@ -166,15 +176,14 @@ fn moved(
 fn distance(
     (task, model): (&InferTask, &Model),
     (reference, next): (&Reference, &Reference),
-    smoothed: &[Gaussian],
+    smoothed: &[Known],
 ) -> f64 {
     let states = &model.states;
     let mut far = unmoving((task, model), (reference, next), &smoothed[smoothed.len() - 1]);
     for (k, known) in smoothed.iter().enumerate() {
         let (from, to) = (coordinates(task, reference, k), coordinates(task, next, k));
         for j in 0..states.sought {
-            let place = states.course(j);
-            let deviation = known.covariance[place * (states.count() + 1)].max(0.0).sqrt();
+            let deviation = known[states.course(j)].1;
             let rounding = 1e-9 * to[j].abs();
             far = far.max(((to[j] - from[j]).abs() - rounding).max(0.0) / deviation.max(1e-300));
         }
@@ -186,13 +195,10 @@ fn distance(
 fn unmoving(
     (task, model): (&InferTask, &Model),
     (reference, next): (&Reference, &Reference),
-    last: &Gaussian,
+    last: &Known,
 ) -> f64 {
     let states = &model.states;
-    let over = |moved: f64, place: usize| {
-        let deviation = last.covariance[place * (states.count() + 1)].max(0.0).sqrt();
-        moved.abs() / deviation.max(1e-300)
-    };
+    let over = |moved: f64, place: usize| moved.abs() / last[place].1.max(1e-300);
     let parameters = task.uncertain.iter().enumerate().map(|(k, own)| {
         over(own.beyond(next.parameters[k], reference.parameters[k]), states.parameter(k))
     });

@@ -5,6 +5,7 @@
 //! States have any unit; a covariance has the product of those of its two states. Matrices are
 //! stored row by row.
 
+mod augmented;
 mod filter;
 mod smoother;
 mod transition;
@@ -13,6 +14,7 @@ use std::rc::Rc;
 
 use lptn_integrate::vectors::{add, dot};
 
+pub use augmented::{Augmented, Estimate, Part, Unknowns};
 pub use filter::{Filter, Innovation};
 pub use smoother::{Later, Smoother, Told};
 pub use transition::{Fade, Transition};

@@ -24,6 +24,15 @@ struct Moment {
     readings: Vec<Taken>,
 }
 
+/// Change of the filter by a change of the first state.
+#[derive(Clone, Debug)]
+pub(super) struct Moved {
+    /// The means of each moment before its readings.
+    pub(super) means: Vec<Vec<f64>>,
+    /// The residuals of the readings of each moment.
+    pub(super) residuals: Vec<Vec<f64>>,
+}
+
 #[derive(Clone, Debug)]
 struct Way {
     transition: Rc<Transition>,
@@ -79,26 +88,84 @@ impl Smoother {
 
     /// Visits the moments, last to first, with the estimate of each from all readings.
     pub fn backwards(&self, mut visit: impl FnMut(usize, &Told<'_>)) {
+        self.way_back(&[], |k, told, _| visit(k, told));
+    }
+
+    /// The same with the pull of the later readings if their residuals are those of each move.
+    pub(super) fn way_back(
+        &self,
+        moves: &[Moved],
+        mut visit: impl FnMut(usize, &Told<'_>, &[Vec<f64>]),
+    ) {
         let n = self.filter.state().mean.len();
         let mut later = Later { pull: vec![0.0; n], hold: vec![0.0; n * n] };
+        let mut pulls = vec![vec![0.0; n]; moves.len()];
         let (mut last, mut back) = (None::<Rc<Transition>>, None::<Transition>);
         let mut room = [vec![0.0; n * n], vec![0.0; n * n]];
         for (k, moment) in self.moments.iter().enumerate().rev() {
-            moment.readings.iter().rev().for_each(|taken| later.reading(taken));
-            visit(k, &Told { before: &moment.before, later: &later });
+            for (i, taken) in moment.readings.iter().enumerate().rev() {
+                later.reading(taken);
+                let both = pulls.iter_mut().zip(moves);
+                both.for_each(|(pull, moved)| taken.pull(pull, moved.residuals[k][i]));
+            }
+            visit(k, &Told { before: &moment.before, later: &later }, &pulls);
             let Some(Way { transition, fades }) = &moment.way else { continue };
             if last.as_ref().is_none_or(|last| !Rc::ptr_eq(last, transition)) {
                 (last, back) = (Some(Rc::clone(transition)), Some(transition.transposed()));
             }
-            back.iter().for_each(|back| later.step(back, fades, &mut room));
+            if let Some(back) = &back {
+                later.step(back, fades, &mut room);
+                pulls.iter_mut().for_each(|pull| *pull = back.advanced(fades, pull));
+            }
         }
+    }
+
+    /// Change of the filter if the first state is moved by `first`.
+    pub(super) fn moved(&self, first: &[f64]) -> Moved {
+        let mut mean = first.to_vec();
+        let mut all = Moved { means: Vec::new(), residuals: Vec::new() };
+        for moment in &self.moments {
+            if let Some(Way { transition, fades }) = &moment.way {
+                mean = transition.advanced(fades, &mean);
+            }
+            all.means.push(mean.clone());
+            let take = |taken: &Taken| {
+                let residual = -weighed(&taken.of, &mean);
+                add(&mut mean, residual, &taken.gain);
+                residual
+            };
+            all.residuals.push(moment.readings.iter().map(take).collect());
+        }
+        all
+    }
+
+    /// Residual of each reading, in their order.
+    pub(super) fn residuals(&self) -> impl Iterator<Item = f64> {
+        self.innovations().map(|innovation| innovation.residual)
+    }
+
+    /// Standard deviation of each residual.
+    pub(super) fn deviations(&self) -> Vec<f64> {
+        self.innovations().map(|innovation| innovation.variance.sqrt()).collect()
+    }
+
+    fn innovations(&self) -> impl Iterator<Item = Innovation> {
+        self.moments.iter().flat_map(|moment| &moment.readings).map(|taken| taken.innovation)
+    }
+}
+
+impl Taken {
+    /// `(1 - k h)' pull + h' residual / S`
+    fn pull(&self, pull: &mut [f64], residual: f64) {
+        let pulled = residual / self.innovation.variance - dot(&self.gain, pull);
+        self.of.iter().for_each(|&(i, h)| pull[i] += h * pulled);
     }
 }
 
 /// Estimate of a moment from all readings.
 #[derive(Clone, Copy, Debug)]
 pub struct Told<'a> {
-    before: &'a Gaussian,
+    pub(super) before: &'a Gaussian,
     /// Information from the readings of this moment and later.
     pub later: &'a Later,
 }
@@ -153,11 +220,10 @@ impl Later {
         let n = self.pull.len();
         let (of, gain) = (&taken.of, &taken.gain);
         let Innovation { residual, variance } = taken.innovation;
-        let pulled = residual / variance - dot(gain, &self.pull);
+        taken.pull(&mut self.pull, residual);
         let held = multiplied(&self.hold, gain);
         let most = dot(gain, &held) + 1.0 / variance;
         for &(i, h) in of.iter() {
-            self.pull[i] += h * pulled;
             for (j, held) in held.iter().enumerate() {
                 self.hold[i * n + j] -= h * held;
                 self.hold[j * n + i] -= h * held;
@@ -178,14 +244,14 @@ mod tests {
     use std::rc::Rc;
 
     use super::Smoother;
-    use crate::kalman::{Gaussian, Reading, Step, Transition};
+    use crate::kalman::{Augmented, Gaussian, Reading, Step, Transition};
+
+    const PRIOR: [f64; 9] = [4.0, 0.5, 0.0, 0.5, 2.0, 0.1, 0.0, 0.1, 9.0];
 
     /// Moments of six steps with two readings each, one missing, and a moment without any.
-    fn followed() -> Smoother {
-        let mut smoother = Smoother::new(Gaussian {
-            mean: vec![1.0, 2.0, 3.0],
-            covariance: vec![4.0, 0.5, 0.0, 0.5, 2.0, 0.1, 0.0, 0.1, 9.0],
-        });
+    fn followed(prior: &[f64]) -> Smoother {
+        let mut smoother =
+            Smoother::new(Gaussian { mean: vec![1.0, 2.0, 3.0], covariance: prior.to_vec() });
         let matrix = [0.9, 0.05, 0.3, 0.02, 0.95, 0.01, 0.0, 0.0, 1.0];
         let step = Step {
             transition: Rc::new(Transition::of(&matrix)),
@@ -244,7 +310,7 @@ mod tests {
                 0.034_216_582_835_518_17,
             ),
         ];
-        let smoother = followed();
+        let smoother = followed(&PRIOR);
         let smoothed = smoother.smoothed();
         for (moment, mean, variance, between) in expected {
             let found = &smoothed[moment];
@@ -257,10 +323,64 @@ mod tests {
         assert!((smoother.filter().log_likelihood() + 8.439_296_360_033_93).abs() < 1e-12);
     }
 
+    /// The prior as unknowns, and half of it as unknowns: the same estimates as by the covariance.
+    #[test]
+    fn unknowns_outside_the_covariance_are_known_as_well() {
+        let second = (2.0_f64 - 0.0625).sqrt();
+        let third = 0.1 / second;
+        let last = (9.0 - third * third).sqrt();
+        let roots = [vec![2.0, 0.25, 0.0], vec![0.0, second, third], vec![0.0, 0.0, last]];
+        let smoothed = followed(&PRIOR).smoothed();
+        for left in [0.0, 0.5] {
+            let prior: Vec<f64> = PRIOR.iter().map(|p| left * p).collect();
+            let part = f64::sqrt(1.0 - left);
+            let roots =
+                roots.each_ref().map(|root| root.iter().map(|x| part * x).collect::<Vec<_>>());
+            let mut seen = 0;
+            Augmented::new(followed(&prior), roots.iter().map(Vec::as_slice)).backwards(
+                |k, estimate| {
+                    for i in 0..3 {
+                        let (mean, deviation) = estimate.of(&[(i, 1.0)]);
+                        assert!((mean - smoothed[k].mean[i]).abs() < 1e-12, "{k} {i}");
+                        let variance = smoothed[k].covariance[4 * i];
+                        assert!((deviation * deviation - variance).abs() < 1e-13, "{k} {i}");
+                    }
+                    seen += 1;
+                },
+            );
+            assert_eq!(seen, 6);
+        }
+    }
+
+    /// A constant with a prior deviation of 1e9, read 100 times with noise of 1: the mean of the
+    /// readings, known to 0.1, at every moment.
+    #[test]
+    fn analytic_a_wide_prior_costs_no_digits() {
+        let mut smoother =
+            Smoother::new(Gaussian { mean: vec![0.0, 0.0], covariance: vec![0.0; 4] });
+        // the constant feeds the second state, which is read
+        let step = Step {
+            transition: Rc::new(Transition::of(&[1.0, 0.0, 1.0, 0.0])),
+            input: Rc::new(vec![0.0; 2]),
+            noise: Rc::new(vec![0.0; 4]),
+            fades: Rc::new(Vec::new()),
+        };
+        for k in 1..=100 {
+            smoother.predict(&step);
+            let value = 50.0 + f64::from(k % 2);
+            smoother.update(&Reading { of: vec![(1, 1.0)].into(), value, variance: 1.0 });
+        }
+        Augmented::new(smoother, [[1e9, 0.0].as_slice()]).backwards(|k, estimate| {
+            let (mean, deviation) = estimate.of(&[(0, 1.0)]);
+            assert!((mean - 50.5).abs() < 1e-12, "{k}: {mean}");
+            assert!((deviation - 0.1).abs() < 1e-13, "{k}: {deviation}");
+        });
+    }
+
     /// After the last reading there is nothing more to know.
     #[test]
     fn the_filter_is_the_smoother_at_the_end() {
-        let smoother = followed();
+        let smoother = followed(&PRIOR);
         let smoothed = smoother.smoothed();
         let (last, filtered) = (&smoothed[5], smoother.filter().state());
         for i in 0..3 {

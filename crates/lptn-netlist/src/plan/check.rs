@@ -37,8 +37,18 @@ impl PlanStudy {
                 "`know` of plan `{}`: the error of `{}` has to be more than zero",
                 self.name, target.name
             );
-            let help =
-                format!("write for example `{} = \"5 %\"`, or an error in its unit", target.name);
+            let name = &target.name;
+            let help = match network.parameter_value(*id).abs() > 0.0 {
+                true => format!("write for example `{name} = \"5 %\"`, or an error in its unit"),
+                false => {
+                    let unit = network.parameters()[id.index()].ty.usual_unit();
+                    let unit = if unit == "1" { unit } else { format!("1 {unit}") };
+                    format!(
+                        "`{name}` is 0, of which no share is an error: write the error in its unit, \
+                         for example `{name} = \"{unit}\"`"
+                    )
+                }
+            };
             Some(Diagnostic::wrong("netlist::plan_know", message, &target.span, help))
         };
         self.known.iter().zip(&numbers.known).filter_map(unsound).collect()

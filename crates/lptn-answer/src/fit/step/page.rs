@@ -20,6 +20,7 @@ use super::{FitStepAnswer, StepColumn};
 use crate::about;
 use crate::messages;
 use crate::scale;
+use crate::words::difference;
 
 const TEMPERATURE: Type = Type::ABSOLUTE_TEMPERATURE;
 const DIFFERENCE: Type = Type::of(Dimension::TEMPERATURE);
@@ -66,7 +67,7 @@ impl Page for FitStepAnswer {
             parted("R_eq", "K/W", |power| &power.resistance);
             parted("P_disp", "W", |power| &power.power);
         }
-        table.done().into()
+        scale::table(table.done(), unit).into()
     }
 
     fn figures(&self) -> Vec<Figure> {
@@ -148,7 +149,7 @@ fn fits(answer: &FitStepAnswer, text: &mut Text) {
             (format!("T_i [{}]", unit.text), &|c| temperature(&c.fit.initial)),
             (format!("T_f [{}]", unit.text), &|c| temperature(&c.fit.settled)),
             ("t_RC [s]".to_owned(), &|c| with_error(c.fit.tau.value, c.fit.tau.standard_error)),
-            ("rms [K]".to_owned(), &|c| significant(c.fit.rms, 3)),
+            (format!("rms [{}]", difference(unit)), &|c| significant(c.fit.rms / unit.scale, 3)),
             ("length/t_RC".to_owned(), &|c| significant(c.fit.time_constants(), 3)),
         ],
     );
@@ -190,22 +191,24 @@ fn rises(answer: &FitStepAnswer, text: &mut Text) {
         );
     }
     // one row for each number with separate errors
-    let mut rows: Vec<(String, &str, &Parted)> = Vec::new();
+    let unit = &answer.request.unit;
+    let rise = format!("dT [{}]", difference(unit));
+    let mut rows: Vec<(String, &str, &Parted, f64)> = Vec::new();
     for column in &answer.columns {
         let power = &column.power;
-        rows.push((plain(&column.column.name), "dT [K]", &power.rise));
+        rows.push((plain(&column.column.name), &rise, &power.rise, unit.scale));
         if answer.request.capacity.is_some() {
-            rows.push((String::new(), "R_eq [K/W]", &power.resistance));
-            rows.push((String::new(), "P_disp [W]", &power.power));
+            rows.push((String::new(), "R_eq [K/W]", &power.resistance, 1.0));
+            rows.push((String::new(), "P_disp [W]", &power.power, 1.0));
         }
     }
     text.table(
         TextTable::of(&rows)
             .left("column", |row| row.0.as_str())
             .left("", |row| row.1)
-            .right("", |row| to_error(row.2.value, least(row.2)))
-            .right("± random", |row| error(row.2.random))
-            .right("± systematic", |row| error(row.2.systematic)),
+            .right("", |row| to_error(row.2.value / row.3, least(row.2) / row.3))
+            .right("± random", |row| error(row.2.random / row.3))
+            .right("± systematic", |row| error(row.2.systematic / row.3)),
     );
 }
 

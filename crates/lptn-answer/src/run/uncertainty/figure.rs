@@ -4,6 +4,7 @@ use lptn_network::{Item, Network, Value};
 use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Moment, Panel};
 use lptn_study::uncertainty::{Answer, AnswerOf, Uncertainty};
+use lptn_units::Unit;
 use lptn_units::statistics::NORMAL_95;
 
 use super::files::{parameter, unit_of};
@@ -20,7 +21,7 @@ const LEAST_SHARE: f64 = 0.0005;
 
 /// A panel for each margin of a limit, else for each temperature at the end: a row for each
 /// parameter, with bars from the value to that with one standard deviation less and more.
-pub(crate) fn tornado(network: &Network, found: &Uncertainty) -> Option<Figure> {
+pub(crate) fn tornado((network, unit): (&Network, &Unit), found: &Uncertainty) -> Option<Figure> {
     let is_margin = |answer: &&Answer| matches!(answer.of, AnswerOf::Margin(_));
     let mut chosen: Vec<&Answer> = found.answers.iter().filter(is_margin).collect();
     let margins = !chosen.is_empty();
@@ -34,7 +35,7 @@ pub(crate) fn tornado(network: &Network, found: &Uncertainty) -> Option<Figure> 
         chosen.reverse();
     }
     let panels: Vec<Panel> =
-        chosen.into_iter().take(MOST).map(|answer| panel(network, found, answer)).collect();
+        chosen.into_iter().take(MOST).map(|answer| panel((network, unit), found, answer)).collect();
     let note = "bars: one standard deviation less and more of one parameter, the others fixed";
     (!panels.is_empty()).then(|| Figure {
         title: if margins { "Margins of limits" } else { "Temperatures at the end" }.to_owned(),
@@ -43,7 +44,7 @@ pub(crate) fn tornado(network: &Network, found: &Uncertainty) -> Option<Figure> 
     })
 }
 
-fn panel(network: &Network, found: &Uncertainty, answer: &Answer) -> Panel {
+fn panel((network, unit): (&Network, &Unit), found: &Uncertainty, answer: &Answer) -> Panel {
     let shown = answer.ranking.iter().filter(|part| part.weight().abs() >= LEAST_SHARE);
     let shown: Vec<_> = shown.take(MOST_BARS).collect();
     let name = |input: usize| {
@@ -54,20 +55,20 @@ fn panel(network: &Network, found: &Uncertainty, answer: &Answer) -> Panel {
         AnswerOf::Margin(_) => (answer.of.name(network), 0.0),
         _ => (format!("{} less its value", answer.of.name(network)), answer.value),
     };
-    let axis = Axis::linear(of, unit_of(network, answer.of));
-    let mut panel = Panel::new(axis, Axis::names("", names));
+    let by = unit_of((network, unit), answer.of);
+    let mut panel = Panel::new(Axis::linear(of, &by.text), Axis::names("", names));
     for (name, sign) in [("less", -1.0), ("more", 1.0)] {
-        let ends = shown.iter().map(|part| answer.value - zero + sign * part.effect);
+        let ends = shown.iter().map(|part| by.from_si(answer.value - zero + sign * part.effect));
         let ends: Vec<f64> = ends.collect();
         let points = ends.iter().copied().zip((0..).map(f64::from)).collect();
-        let value = answer.value - zero;
+        let value = by.from_si(answer.value - zero);
         let spread = ends.iter().map(|end| (end.min(value), end.max(value))).collect();
         panel.curves.push(Curve::line(name, points).within(spread).looks(Look::Bars));
     }
     if matches!(answer.of, AnswerOf::Margin(_)) {
         panel.moments.push(Moment { name: "limit".into(), at: 0.0 });
     }
-    panel.moments.push(Moment { name: "value".into(), at: answer.value - zero });
+    panel.moments.push(Moment { name: "value".into(), at: by.from_si(answer.value - zero) });
     panel
 }
 

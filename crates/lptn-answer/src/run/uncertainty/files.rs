@@ -48,7 +48,7 @@ pub(crate) fn ranking(network: &Network, found: &Uncertainty) -> Table {
         .collect();
     let mut table = Table::of(&rows);
     table.label("result", |(answer, _)| answer.of.name(network));
-    table.label("unit", |(answer, _)| unit_of(network, answer.of));
+    table.label("unit", |(answer, _)| type_of(network, answer.of).dimension.si_unit());
     table.label("parameter", |(_, part)| parameter(network, found, part.input));
     table.column("effect", "SI", |(_, part)| part.effect);
     let mut column = |name: &str, value: &dyn Fn(&Contribution) -> Option<f64>| {
@@ -70,9 +70,9 @@ pub(super) fn parameter(network: &Network, found: &Uncertainty, input: usize) ->
     network.name_of(Item::Parameter(found.inputs[input].parameter)).into_owned()
 }
 
-/// The SI unit of a difference of two values of an answer.
-pub(super) fn unit_of(network: &Network, of: AnswerOf) -> String {
-    type_of(network, of).dimension.si_unit()
+/// The unit of a difference of two values of an answer, with temperatures in `unit`.
+pub(super) fn unit_of((network, unit): (&Network, &Unit), of: AnswerOf) -> Unit {
+    unit.shown(Type::of(type_of(network, of).dimension))
 }
 
 fn type_of(network: &Network, of: AnswerOf) -> Type {

@@ -35,8 +35,8 @@ pub(crate) fn sections(
         text.sentence(label, &words);
     }
     temperatures(text.section(), (network, fold), (found, unit));
-    margins(text.section(), (network, fold), found);
-    ranking(text.section(), network, found);
+    margins(text.section(), (network, fold), (found, unit));
+    ranking(text.section(), (network, unit), found);
 }
 
 fn heading(found: &Uncertainty) -> String {
@@ -128,15 +128,20 @@ fn band(answers: &[&Answer], title: &str, (unit, digits): (&Unit, usize)) -> Vec
     ]
 }
 
-fn margins(text: &mut Text, (network, fold): (&Network, bool), found: &Uncertainty) {
+fn margins(
+    text: &mut Text,
+    (network, fold): (&Network, bool),
+    (found, unit): (&Uncertainty, &Unit),
+) {
     let margins = found.answers.iter().filter(|answer| matches!(answer.of, AnswerOf::Margin(_)));
     let margins = rows(margins, (network, fold), |answer| -answer.value);
     if margins.is_empty() {
         return;
     }
     let number = |answer: &Answer, value: f64| {
-        let digits = decimals(answer.deviation.value, 3, 1);
-        format!("{} {}", fixed(value, digits), unit_of(network, answer.of))
+        let of = unit_of((network, unit), answer.of);
+        let digits = decimals(of.from_si(answer.deviation.value), 3, 1);
+        format!("{} {}", fixed(of.from_si(value), digits), of.text)
     };
     let table = TextTable::of(&margins).left("limit", |row| row.name.as_str());
     let table = families::members(table, &margins, "worst")
@@ -187,7 +192,7 @@ fn probability(of: Estimate, samples: usize) -> String {
 
 /// The ranking for the ends of as many nodes as fit.
 /// If no temperature is requested, it is for the margins.
-fn ranking(text: &mut Text, network: &Network, found: &Uncertainty) {
+fn ranking(text: &mut Text, network: (&Network, &Unit), found: &Uncertainty) {
     let ends: Vec<&Answer> =
         found.answers.iter().filter(|answer| matches!(answer.of, AnswerOf::End(_))).collect();
     let all = if ends.is_empty() { found.answers.iter().collect() } else { ends };
@@ -210,7 +215,7 @@ fn ranking(text: &mut Text, network: &Network, found: &Uncertainty) {
 }
 
 fn side_by_side(
-    network: &Network,
+    (network, unit): (&Network, &Unit),
     found: &Uncertainty,
     answers: &[&Answer],
 ) -> (TextTable, Option<String>) {
@@ -233,15 +238,16 @@ fn side_by_side(
         .left("parameter", |input| parameter(network, found, *input))
         .right("±", |input| inputs::deviation(network, found, *input));
     for answer in answers {
-        let digits = decimals(answer.deviation.value, 3, 1);
+        let own = unit_of((network, unit), answer.of);
+        let digits = decimals(own.from_si(answer.deviation.value), 3, 1);
         let of = |input: usize, text: &dyn Fn(Contribution) -> String| {
             part(answer, input).map_or("-".into(), text)
         };
-        let title = format!("{} [{}]", name(network, answer.of), unit_of(network, answer.of));
+        let title = format!("{} [{}]", name(network, answer.of), own.text);
         let linear = matches!(found.method, UncertaintyMethod::Linear { .. })
             || found.inputs.are_correlated();
         table = table
-            .right(title, |i| of(*i, &|part| signed(part.effect, digits)))
+            .right(title, |i| of(*i, &|part| signed(own.from_si(part.effect), digits)))
             .right(if linear { "share" } else { "alone" }, |i| {
                 of(*i, &|part| percent(part.share.value))
             });
@@ -303,13 +309,14 @@ fn wide<'a>(network: &'a Network, found: &'a Uncertainty) -> impl Iterator<Item 
 }
 
 /// Results that straight lines get wrong: the worst, and how many others.
-pub(crate) fn bends(network: &Network, bent: &[Bent]) -> Option<String> {
+pub(crate) fn bends((network, unit): (&Network, &Unit), bent: &[Bent]) -> Option<String> {
     let worst = bent.iter().max_by(|a, b| {
         let ratio = |of: &Bent| (of.found - of.linear) / of.found;
         ratio(a).total_cmp(&ratio(b))
     })?;
-    let unit = spaced(&unit_of(network, worst.of));
-    let [found, linear] = [worst.found, worst.linear].map(|by| significant(by, 2));
+    let of = unit_of((network, unit), worst.of);
+    let [found, linear] = [worst.found, worst.linear].map(|by| significant(of.from_si(by), 2));
+    let unit = spaced(&of.text);
     let others = match bent.len() - 1 {
         0 => String::new(),
         1 => " (and one other result)".into(),
@@ -341,7 +348,7 @@ pub(crate) fn notes(network: &Network, study: &Study, unit: &Unit) -> Vec<String
             };
             let more =
                 inputs::shares(found).into_iter().chain(inputs::far_from_normal(network, found));
-            let rough = bends(network, bent).into_iter().chain(wide(network, found));
+            let rough = bends((network, unit), bent).into_iter().chain(wide(network, found));
             return differences.iter().map(note).chain(rough).chain(more).collect();
         }
         UncertaintyMethod::Sobol { lost, .. } => lost,
@@ -381,20 +388,12 @@ fn differs(network: &Network, one: &Discrepancy, unit: &Unit) -> String {
         }
         (of, _) => of.name(network),
     };
-    let digits = decimals(0.5 * (one.sampled.1 - one.sampled.0), 3, 1);
-    let band = |(low, high): (f64, f64)| match one.of {
-        AnswerOf::Margin(_) => {
-            format!(
-                "{} to {} {}",
-                fixed(low, digits),
-                fixed(high, digits),
-                unit_of(network, one.of)
-            )
-        }
-        _ => {
-            let shown = |kelvin: f64| fixed(unit.from_si(kelvin), digits);
-            format!("{} to {} {}", shown(low), shown(high), unit.text)
-        }
+    let by = unit_of((network, unit), one.of);
+    let digits = decimals(by.from_si(0.5 * (one.sampled.1 - one.sampled.0)), 3, 1);
+    let shown = if matches!(one.of, AnswerOf::Margin(_)) { &by } else { unit };
+    let band = |(low, high): (f64, f64)| {
+        let [low, high] = [low, high].map(|si| fixed(shown.from_si(si), digits));
+        format!("{low} to {high} {}", shown.text)
     };
     format!(
         "{what} is not linear: {} by straight lines, {} sampled",
