@@ -192,7 +192,7 @@ fn parameters(input: &Input, sensitivities: Option<&Sensitivities>) -> Option<Se
         let text = unit.text.as_str();
         let text = if of(id).ty.absolute { difference(&unit) } else { text };
         deviation.map_or(String::new(), |spread| {
-            let sigma = significant(spread.sigma / unit.scale, 3);
+            let sigma = significant(spread.sigma(network.parameter_value(*id)) / unit.scale, 3);
             format!("{sigma}{}{}", spaced(text), spread.suffix())
         })
     };

@@ -101,7 +101,7 @@ pub fn beside_posterior(
             continue;
         }
         let away = quantity.value - network.parameter_value(parameter);
-        let most = away.hypot(quantity.spread.map_or(0.0, |spread| spread.sigma));
+        let most = away.hypot(quantity.spread.map_or(0.0, |spread| spread.sigma(quantity.value)));
         // set values take precedence over a posterior
         let of = |run: &MeasuredRun| run.parameters.value(parameter).map_or(most, |_| 0.0);
         off.push(Off { parameter, by: task.runs.iter().map(of).collect() });

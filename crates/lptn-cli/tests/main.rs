@@ -21,6 +21,7 @@ mod common;
 mod compare;
 mod compare_cycles;
 mod completion;
+mod deviations;
 mod documents;
 mod events;
 mod events_verbs;

@@ -46,8 +46,8 @@ fn analytic_a_linear_posterior_is_that_of_least_squares() {
     let [room, power] = &found.quantities[..] else { panic!("{found:?}") };
     assert!((room.value - 273.15 - 25.750_132_439_652_81).abs() < 1e-6, "{}", room.value);
     near(power.value, 195.732_417_470_531_83, 1e-7);
-    near(room.spread.unwrap().sigma, 1.096_136_982_946_256_8, 1e-6);
-    near(power.spread.unwrap().sigma, 5.578_937_368_082_129, 1e-6);
+    near(room.spread.unwrap().sigma(room.value), 1.096_136_982_946_256_8, 1e-6);
+    near(power.spread.unwrap().sigma(power.value), 5.578_937_368_082_129, 1e-6);
     near(found.correlations.between(0, 1), -0.814_461_008_072_333_7, 1e-6);
     // the covariance is what all of that says, in the units of the quantities
     let covariance = found.covariance();
@@ -101,7 +101,8 @@ fn analytic_a_lognormal_prior_is_one_more_measurement_of_the_logarithm() {
     );
     let found = posterior(&netlist).unwrap();
     near(found.quantities[0].value, 0.300_748_906_705_627_2, 1e-8);
-    near(found.quantities[0].prior.unwrap().spread.sigma, 0.00045, 1e-9);
+    let prior = found.quantities[0].prior.unwrap();
+    near(prior.spread.sigma(prior.value), 0.00045, 1e-9);
 }
 
 /// Of what records do not determine there is no posterior.

@@ -136,10 +136,12 @@ impl Netlist {
     /// Warns about a `±` that the fit did not know: it does not count.
     fn unknown_prior(&self, quantity: &PosteriorQuantity, place: &Span) -> Option<Diagnostic> {
         let id = self.network.parameter(&quantity.name).ok()?;
-        let own = self.network.parameters()[id.index()].deviation.filter(|own| own.sigma > 0.0)?;
+        let own =
+            self.network.parameters()[id.index()].deviation.filter(|own| !own.is_certain())?;
         let same = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
         let known = quantity.prior.is_some_and(|prior| {
-            same(prior.spread.sigma, own.sigma) && prior.spread.distribution == own.distribution
+            let [known, own_sigma] = [prior.spread, own].map(|spread| spread.sigma(prior.value));
+            same(known, own_sigma) && prior.spread.distribution == own.distribution
         });
         if known {
             return None;
@@ -182,7 +184,7 @@ fn few(quantity: &PosteriorQuantity, place: &Span) -> Option<Diagnostic> {
     if degrees >= FEW {
         return None;
     }
-    let (half, normal) = (quantity.half_width?, NORMAL_95 * spread.sigma);
+    let (half, normal) = (quantity.half_width?, NORMAL_95 * spread.sigma(quantity.value));
     let message = format!(
         "the standard error of `{}` is known with {} degrees of freedom only: its 95 % interval is \
          ± {} {}, and a normal one ± {}",
@@ -228,5 +230,6 @@ fn reaches(quantity: &PosteriorQuantity, spread: Spread) -> bool {
         let s = 2.0 * spread.of_logarithm(value);
         return value * (-s).exp() < low || value * s.exp() > high;
     }
-    value - 2.0 * spread.sigma < low || value + 2.0 * spread.sigma > high
+    let two = 2.0 * spread.sigma(value);
+    value - two < low || value + two > high
 }

@@ -308,7 +308,7 @@ impl<'a> Elaboration<'a> {
             self.refuse(code, message, &raw.span, help);
             return None;
         }
-        let sigma = quantity.deviation.map(|spread| spread.sigma);
+        let sigma = quantity.deviation.map(|spread| spread.sigma(quantity.value));
         let certainty = sigma.map_or(Certainty::Exact, Certainty::Deviation);
         Some(Some(SensorValue { value: quantity.value, certainty }))
     }
@@ -327,7 +327,8 @@ fn type_of(entry: &RawEntry) -> Option<Type> {
 
 /// The reason why a quantity cannot be this value of a sensor: code, error, and help.
 fn unsound(key: &str, quantity: &Quantity) -> Option<(&'static str, &'static str, &'static str)> {
-    let (value, deviation) = (quantity.value, quantity.deviation.map(|spread| spread.sigma));
+    let value = quantity.value;
+    let deviation = quantity.deviation.map(|spread| spread.sigma(value));
     match (key, deviation) {
         ("resolution", Some(_)) => Some((
             "netlist::sensor_prior",
@@ -384,7 +385,7 @@ fn misread(key: &str, text: &str) -> Option<(String, String)> {
     let (value, message) = (known.value, format!("is {text}, and a gain is near 1"));
     let help = match known.deviation {
         Some(spread) => {
-            let sigma = (value * spread.sigma / 100.0).abs();
+            let sigma = (value * spread.sigma(known.value) / 100.0).abs();
             format!("if it multiplies by {value}, write `gain = \"{value} ± {sigma}\"`")
         }
         None => format!("a gain that is known to {text} is `gain = \"1 ± {text}\"`"),
@@ -405,8 +406,9 @@ fn percent_of(text: &str) -> Option<Quantity> {
     let quantity = parse_quantity(&in_percent(text)?, Some(Type::SCALAR)).ok()?;
     let near_one = (0.5..2.0).contains(&quantity.value);
     let deviation = quantity.deviation.filter(|_| near_one)?;
-    let sigma = quantity.value * deviation.sigma / 100.0;
-    Some(Quantity { deviation: Some(Spread { sigma, ..deviation }), ..quantity })
+    let sigma = quantity.value * deviation.sigma(quantity.value) / 100.0;
+    let deviation = Spread::of(quantity.value, sigma, deviation.distribution);
+    Some(Quantity { deviation: Some(deviation), ..quantity })
 }
 
 fn as_written(raw: &RawValue) -> String {

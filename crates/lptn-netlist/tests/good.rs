@@ -197,8 +197,8 @@ fn inputs_may_depend_on_time() {
 fn deviations_stay_with_their_parameters() {
     let netlist = good(&format!("{BLOCK}[param]\na = '87 ± 15 W'\nb = '100 W +- 5 %'\n"));
     let deviations: Vec<Option<f64>> =
-        netlist.network.parameters().iter().map(|p| p.deviation.map(|d| d.sigma)).collect();
-    assert_eq!(deviations, [Some(15.0), Some(5.0)]);
+        netlist.network.parameters().iter().map(|p| p.deviation.map(|d| d.sigma(200.0))).collect();
+    assert_eq!(deviations, [Some(15.0), Some(10.0)]);
     let warnings: Vec<&str> = netlist.warnings.iter().map(|w| w.code).collect();
     assert_eq!(warnings[..2], ["network::no_boundary", "network::idle_boundary"]);
     assert_eq!(warnings[2..], ["netlist::unused_parameter"; 2]);

@@ -16,14 +16,14 @@ fn quantity(name: &str, value: f64, unit: &str, spread: Option<Spread>) -> Poste
         value,
         unit: unit.to_owned(),
         spread,
-        half_width: spread.map(|spread| 2.0 * spread.sigma),
+        half_width: spread.map(|spread| 2.0 * spread.sigma(value)),
         degrees_of_freedom: None,
         bounds: (f64::NEG_INFINITY, f64::INFINITY),
         prior: None,
     }
 }
 
-const FACTOR: Spread = Spread { sigma: 0.03, distribution: Distribution::Lognormal };
+const FACTOR: Spread = Spread::of(0.3, 0.03, Distribution::Lognormal);
 
 /// R = 0.3 ± 0.03 K/W (lognormal), P = 100 ± 2 W, an offset, and T_room on a bound.
 fn found() -> Posterior {
@@ -69,7 +69,8 @@ fn value(netlist: &Netlist, name: &str) -> f64 {
 fn sigmas(netlist: &Netlist) -> Vec<(String, f64)> {
     let name =
         |id: lptn_network::ParameterId| netlist.network.parameters()[id.index()].name.clone();
-    netlist.overrides().uncertain().into_iter().map(|(id, s)| (name(id), s.sigma)).collect()
+    let sigma = |id, spread: Spread| spread.sigma(netlist.network.parameter_value(id));
+    netlist.overrides().uncertain().into_iter().map(|(id, s)| (name(id), sigma(id, s))).collect()
 }
 
 /// The correlation of R and P.

@@ -99,11 +99,11 @@ impl Parameters {
     }
 
     /// The uncertain parameters, in the order of the network, each with its deviation: given here,
-    /// or from its own `±`.
+    /// or from its own `±`. A deviation in percent is of the value that the parameter has.
     pub fn uncertain(&self) -> Vec<(ParameterId, Spread)> {
         let all = self.parts.parameters.iter().zip(&self.deviations).zip(0..);
         let found = all.filter_map(|((own, given), i)| {
-            let spread = given.or(own.deviation).filter(|spread| spread.sigma > 0.0)?;
+            let spread = given.or(own.deviation).filter(|spread| !spread.is_certain())?;
             Some((ParameterId(i), spread))
         });
         found.collect()
@@ -124,7 +124,8 @@ impl Parameters {
     /// Sets a parameter by name to a written quantity, such as `"5000 rpm"`, whose unit is checked
     /// as in a netlist: `"300 K"` is a difference. An expression without names is accepted too,
     /// `"absolute(300 [K])"`. A `±` in the text replaces the parameter's own, see
-    /// [`Parameters::deviation`].
+    /// [`Parameters::deviation`]. Without one the parameter keeps its own, and one in percent
+    /// follows the new value.
     ///
     /// # Errors
     /// [`ParameterError`] for an unknown name, a unit of another type or a number that cannot be

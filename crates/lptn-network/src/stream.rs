@@ -105,7 +105,7 @@ impl Network {
 
     /// The nodes that flows of a flow network pass, and whose inflow and outflow differ by more than
     /// a tenth: more than the specific heat of one fluid usually varies. `temperatures` are those of
-    /// all nodes and boundaries in K, with the pressures; `scope` has the time and what is on.
+    /// all nodes and boundaries in K, with the pressures; `scope` has the time and the controls.
     ///
     /// # Errors
     /// [`InputError`] if a flow has no value.

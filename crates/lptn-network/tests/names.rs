@@ -194,11 +194,12 @@ fn parameters_are_set_by_name_id_and_text() {
         (n.parameter_value(r), n.parameter_value(g), n.conductance(cool).unwrap())
     };
     assert_eq!(numbers(&network), (2.0, 2.0, 2.0));
-    assert!((network.parameters()[0].deviation.unwrap().sigma - 0.1).abs() < 1e-12);
+    assert!((network.parameters()[0].deviation.unwrap().sigma(2.0) - 0.1).abs() < 1e-12);
     let mut other = network.overrides();
     assert_eq!(other.set_text("R", "8 ± 0.2 K/W").unwrap(), r);
     assert!(
-        (other.deviation(r).unwrap().sigma - 0.2).abs() < 1e-12 && other.deviation(g).is_none()
+        (other.deviation(r).unwrap().sigma(8.0) - 0.2).abs() < 1e-12
+            && other.deviation(g).is_none()
     );
     let second = network.with(&other).unwrap();
     assert_eq!(numbers(&second), (8.0, 0.5, 0.5));

@@ -189,9 +189,8 @@ pub(crate) fn step(network: &Network, id: ParameterId) -> f64 {
         return CHANGE_IN_KELVIN;
     }
     let size = network.parameter_value(id).abs();
-    let size =
-        if size > 0.0 { size } else { parameter.deviation.map_or(1.0, |spread| spread.sigma) };
-    CHANGE * size
+    let spread = parameter.deviation.map_or(0.0, |spread| spread.sigma(0.0));
+    CHANGE * [size, spread].into_iter().find(|size| *size > 0.0).unwrap_or(1.0)
 }
 
 /// A margin bends if its slopes to both sides differ by more than this share.

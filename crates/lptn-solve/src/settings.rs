@@ -266,11 +266,9 @@ const USUAL_CHANGE: f64 = 10.0;
 /// are: all of it, or the `±` of one that is zero.
 fn scale(network: &Network, id: ParameterId) -> f64 {
     let parameter = &network.parameters()[id.index()];
-    let size = match parameter.ty.absolute {
-        true => USUAL_CHANGE,
-        false => network.parameter_value(id).abs(),
-    };
-    let usual = [size, parameter.deviation.map_or(0.0, |spread| spread.sigma)];
+    let value = network.parameter_value(id);
+    let size = if parameter.ty.absolute { USUAL_CHANGE } else { value.abs() };
+    let usual = [size, parameter.deviation.map_or(0.0, |spread| spread.sigma(value))];
     usual.into_iter().find(|scale| scale.is_finite() && *scale > 0.0).unwrap_or(1.0)
 }
 

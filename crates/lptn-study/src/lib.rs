@@ -41,6 +41,6 @@ pub use record::{LedgerRecord, SiValue, StatisticsRecord};
 pub use size::{
     Aim, Choice, ChoiceTask, Choices, Coolant, CoolantFlow, Cooling, CoolingError, CoolingTask,
     Demand, Design, Doubt, Edge, Judged, LoadCase, Moments, Parts, RunOf, Several, SeveralTask,
-    SizeError, SizeTask, Sizing, Trial, TrialError, Verdict, Watcher, certify, choose, judge, size,
-    size_several,
+    Shortfall, SizeError, SizeTask, Sizing, Trial, TrialError, Verdict, Watcher, certify, choose,
+    judge, size, size_several,
 };

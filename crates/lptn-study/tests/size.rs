@@ -4,7 +4,7 @@
 
 use lptn_netlist::{Netlist, parse};
 use lptn_solve::Proceed;
-use lptn_study::uncertainty::{Inputs, uncertain};
+use lptn_study::uncertainty::{Inputs, uncertain_anywhere};
 use lptn_study::{
     Coolant, CoolingTask, Demand, Doubt, Moments, SizeError, SizeTask, Sizing, TrialError, Verdict,
     judge, size,
@@ -37,7 +37,7 @@ fn one_node(resistor: &str, power: &str, study: &str) -> Netlist {
 
 fn demand(netlist: &Netlist) -> Demand<'_> {
     let probability = netlist.studies.sizes[0].probability(&netlist.network).unwrap();
-    let inputs = uncertain(&netlist.network, &netlist.overrides()).ok();
+    let inputs = uncertain_anywhere(&netlist.network, &netlist.overrides()).ok();
     let inputs: Option<&Inputs> = inputs.map(|inputs| &*Box::leak(Box::new(inputs)));
     Demand {
         network: &netlist.network,
@@ -172,6 +172,69 @@ fn an_infeasible_middle_is_the_best_there_is() {
     near(sizing.margin(), 48.28 - 20.0 - 2.0 * 200.0_f64.sqrt(), 1e-6);
 }
 
+/// The rises of 100/x over 5 K and of 2 x over 10 K cross at `2 x^2 - 5 x = 100`, the zero of
+/// `100/x - 5 - (2 x - 10)`: there the worst of both is least, whatever range is searched.
+#[test]
+fn the_closest_value_has_the_least_violation_in_its_unit() {
+    let crossing = (5.0 + 825.0_f64.sqrt()) / 4.0;
+    for (from, to) in [(1.0, 50.0), (0.001, 5000.0), (8.0, 9.0), (2.0, 10.0)] {
+        for goal in ["minimise", "maximise"] {
+            let study = format!(
+                "{goal} = \"x\"\nvary = {{ x = {{ from = {from}, to = {to} }} }}\nrequire = \
+                 [\"block.T - air.T <= 5 [K]\", \"x * 2 [K] <= 10 [K]\"]"
+            );
+            let sizing = solve(&one_node("G = \"x * 1 [W/K]\"", "100 W", &study)).unwrap();
+            assert_eq!(sizing.verdict, Verdict::Infeasible);
+            near(sizing.trial.value, crossing, 1e-7);
+            near(sizing.margin(), 10.0 - 2.0 * crossing, 1e-6);
+        }
+    }
+    // without the crossing in the range it is the nearer end
+    let study = "minimise = \"x\"\nvary = { x = { from = 14, to = 50 } }\nrequire = \
+        [\"block.T - air.T <= 5 [K]\", \"x * 2 [K] <= 10 [K]\"]";
+    let sizing = solve(&one_node("G = \"x * 1 [W/K]\"", "100 W", study)).unwrap();
+    near(sizing.trial.value, 14.0, 1e-12);
+    assert_eq!(sizing.closest, 1);
+    near(sizing.margin(), -18.0, 1e-9);
+}
+
+/// 1 K counts as 1 % of 12 W: `(100/x - 5) / 100 = (3 x - 12) / 12` at the root of
+/// `x^2 / 4 - 0.95 x = 1`. A bound of 0 W counts as one of 100 W:
+/// `(100/x - 5) / 100 = 3 x / 100` at the root of `3 x^2 + 5 x = 100`.
+#[test]
+fn violations_in_several_units_are_shares_of_bounds() {
+    let table = [
+        ("12", (0.95 + (0.95_f64 * 0.95 + 1.0).sqrt()) / 0.5),
+        ("0", (-5.0 + 1225.0_f64.sqrt()) / 6.0),
+    ];
+    for (bound, expected) in table {
+        for (from, to) in [(1.0, 50.0), (0.01, 500.0)] {
+            let study = format!(
+                "minimise = \"x\"\nvary = {{ x = {{ from = {from}, to = {to} }} }}\nrequire = \
+                 [\"block.T - air.T <= 5 [K]\", \"x * 3 [W] <= {bound} [W]\"]"
+            );
+            let sizing = solve(&one_node("G = \"x * 1 [W/K]\"", "100 W", &study)).unwrap();
+            assert_eq!(sizing.verdict, Verdict::Infeasible);
+            near(sizing.trial.value, expected, 1e-7);
+        }
+    }
+}
+
+/// A requirement that nothing changes is broken by the same everywhere: the better end is the
+/// answer.
+#[test]
+fn equal_violations_leave_the_better_end() {
+    for (goal, best) in [("minimise", 1.0), ("maximise", 50.0)] {
+        let study = format!(
+            "{goal} = \"x\"\nvary = {{ x = {{ from = 1, to = 50 }} }}\nrequire = \
+             [\"air.T <= 10 [degC]\"]"
+        );
+        let sizing = solve(&one_node("G = \"x * 1 [W/K]\"", "100 W", &study)).unwrap();
+        near(sizing.trial.value, best, 1e-15);
+        near(sizing.margin(), -10.0, 1e-12);
+    }
+}
+
 #[test]
 fn what_was_set_before_stays_set() {
     let study = "minimise = \"G\"\nvary = { G = { from = \"0.5 W/K\", to = \"50 W/K\" } }\nrequire \
@@ -231,6 +294,34 @@ fn a_probability_takes_what_deviations_may_take() {
 }
 
 const TWO_DEVIATIONS: f64 = 1.836_755_734_099_352_6;
+
+/// The largest P with `0.5 K/W P <= 500 K` at 95 %, by hand: z is the normal quantile, and a
+/// rectangle ends at sqrt(3) deviations. The deviation is that of the value that is tried, whatever
+/// the file has.
+#[test]
+fn a_deviation_in_percent_is_of_the_value_that_is_sized() {
+    let z = 1.644_853_626_951_472_7;
+    let table = [
+        ("100 W ± 5 %", 1000.0 / (1.0 + 0.05 * z)),
+        ("2 kW ± 5 %", 1000.0 / (1.0 + 0.05 * z)),
+        ("100 ± 5 W", 1000.0 - 5.0 * z),
+        ("100 W ± 5 % (rectangle)", 1000.0 / (1.0 + 0.05 * z / 3_f64.sqrt())),
+        ("100 W ± 30 % (lognormal)", 1000.0 * f64::exp(-0.3 * z)),
+        ("100 ± 30 W (lognormal)", 1000.0 * f64::exp(-0.3 * z)),
+    ];
+    for (power, expected) in table {
+        let text = format!(
+            "format = 1\n[param]\nP = \"{power}\"\n[node]\n\
+             block = {{ C = \"1 kJ/K\", T0 = \"20 degC\" }}\n[boundary]\nair = {{ T = \"20 degC\" }}\n\
+             [resistor]\nskin = {{ from = \"block\", to = \"air\", R = \"0.5 K/W\" }}\n[source]\n\
+             loss = {{ into = \"block\", P = \"P\" }}\n[size.s]\nmaximise = \"P\"\n\
+             vary = {{ P = {{ from = \"1 W\", to = \"5 kW\" }} }}\n\
+             require = [\"block.T <= 520 [degC]\"]\nprobability = \"95 %\"\n"
+        );
+        let netlist = parse("a.toml", &text).unwrap_or_else(|rejected| panic!("{rejected}"));
+        near(solve(&netlist).unwrap().trial.value, expected, 1e-9);
+    }
+}
 
 /// P = m cp rise, m = rho V, R = (limit - ambient) / P.
 #[test]

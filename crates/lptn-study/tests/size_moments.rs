@@ -176,6 +176,25 @@ fn what_nothing_keeps_is_told_over_a_run_too() {
     near(sizing.margin(), 10.0 - 50.0 * -(-7.2_f64).exp_m1(), 1e-3);
 }
 
+/// Violations cross where, of x = 1 / R in W/K, `100 / x (1 - e^(-x / 2)) - 5 = 2 x - 10` (SciPy's
+/// brentq): runs too answer with the crossing, whatever the range.
+#[test]
+fn the_closest_value_over_a_run_does_not_depend_on_the_range() {
+    for (from, to) in [(0.02, 1.0), (0.0002, 1000.0)] {
+        let study = format!(
+            "[run]\nstop = \"500 s\"\n[size.s]\nminimise = \"R\"\nover = \"run\"\n\
+             vary = {{ R = {{ from = \"{from} K/W\", to = \"{to} K/W\" }} }}\n\
+             require = [\"max(block.T) <= 25 [degC]\", \"2 [K^2/W] / R <= 10 [K]\"]"
+        );
+        let sizing = solve(&one_node("R = \"1 K/W\"", "100 W", &study)).unwrap();
+        assert_eq!(sizing.verdict, Verdict::Infeasible);
+        near(sizing.trial.value, 1.0 / CROSSING, 1e-8);
+        near(sizing.margin(), 10.0 - 2.0 * CROSSING, 1e-7);
+    }
+}
+
+const CROSSING: f64 = 8.377_714_921_387_591;
+
 /// A run that would end before it begins, at values in the range.
 #[test]
 fn values_without_a_run_are_an_error_that_says_where() {

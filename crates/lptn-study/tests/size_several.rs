@@ -124,6 +124,25 @@ fn what_nothing_keeps_is_told() {
     near(found.design.judged.margins[0], 5.0 - 10.0 - 100.0 / (24.0 * 8.0_f64.powf(0.8)), 1e-3);
 }
 
+/// Three requirements in K against each other: the least of the largest violation s is where all
+/// three are equal, `100 / (12 (2 + s/5)^0.8 (10 + s) / 20) = 5 + s` (SciPy's brentq).
+#[test]
+fn the_closest_of_several_has_the_least_violation() {
+    let require = "\"base.T - air.T <= 5 [K]\", \"A * 20 [K/m^2] <= 10 [K]\", \
+        \"v * 5 [K s/m] <= 10 [K]\"";
+    let wide = "A = { from = \"0.001 m^2\", to = \"50 m^2\" }";
+    for area in [AREA, wide] {
+        let text = fins("minimise = \"A * v\"", &format!("{area}, {SPEED}"), require);
+        let found = several(&text, 2);
+        assert!(!found.feasible);
+        near(found.design.judged.margins[found.worst], -LEAST, 1e-6);
+        near(found.design.values[0], (10.0 + LEAST) / 20.0, 1e-5);
+        near(found.design.values[1], (10.0 + LEAST) / 5.0, 1e-5);
+    }
+}
+
+const LEAST: f64 = 1.948_262_312_641_519_5;
+
 const SINKS: &str = "part,R [K/W],price_sink [-]\ns1,0.9,4\ns2,600e-3,6\ns3,0.45,9\ns4,0.3,15\n";
 const FANS: &str = "part,g [mW/K],price_fan [-],maker\nf0,100,0,x\nf1,900,3,x\nf2,2500,5,y\n";
 

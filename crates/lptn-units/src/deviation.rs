@@ -7,6 +7,7 @@ use crate::error::{UnitError, UnitErrorKind};
 use crate::format::rounded;
 use crate::number::Number;
 use crate::quantity::{Reading, deviation_number, skip_space, unit_at};
+use crate::spread::Spread;
 use crate::types::Type;
 use crate::unit_parser::superscript;
 
@@ -86,19 +87,21 @@ pub(crate) fn trailing(text: &str, at: usize) -> Result<Deviation, UnitError> {
 }
 
 impl Reading<'_> {
-    /// The number after `±` in SI units, for this value in SI units.
-    pub(crate) fn deviation_in_si(&self, value: f64, ty: Type) -> Result<Option<f64>, UnitError> {
+    /// The uncertainty after `±`, of this value in SI units.
+    pub(crate) fn spread(&self, value: f64, ty: Type) -> Result<Option<Spread>, UnitError> {
         let Some(deviation) = &self.deviation else { return Ok(None) };
         if let Some(kind) = self.doubt(deviation, ty) {
             return Err(UnitError::new(kind, deviation.number.span.clone()));
         }
-        let size = deviation.number.value;
-        let si = match deviation.measure {
-            Measure::Percent { .. } => value.abs() * size / 100.0,
-            Measure::Own(scale, _) => size * scale,
-            Measure::Shared | Measure::Missing => size * self.scale(),
+        let (size, distribution) = (deviation.number.value, self.distribution(value, ty)?);
+        let absolute = |size: f64| Spread::of(value, size / distribution.written(), distribution);
+        let spread = match deviation.measure {
+            Measure::Percent { .. } => Spread::of_percent(value, size, distribution),
+            Measure::Own(scale, _) => absolute(size * scale),
+            Measure::Shared | Measure::Missing => absolute(size * self.scale()),
         };
-        self.in_range(si).map(Some)
+        self.in_range(spread.sigma(value))?;
+        Ok(Some(spread))
     }
 
     /// The reason why a deviation cannot be read in one way only.

@@ -31,7 +31,7 @@ pub struct Quantity {
 impl Quantity {
     /// One standard deviation in SI units; 0 if the value is certain.
     pub fn sigma(&self) -> f64 {
-        self.deviation.map_or(0.0, |spread| spread.sigma)
+        self.deviation.map_or(0.0, |spread| spread.sigma(self.value))
     }
 }
 
@@ -220,7 +220,7 @@ impl Reading<'_> {
     }
 
     /// The distribution; only a value above zero that is not absolute can be lognormal.
-    fn distribution(&self, value: f64, ty: Type) -> Result<Distribution, UnitError> {
+    pub(crate) fn distribution(&self, value: f64, ty: Type) -> Result<Distribution, UnitError> {
         let Some(named) = &self.distribution else { return Ok(Distribution::Normal) };
         if named.distribution == Distribution::Lognormal && (ty.absolute || value <= 0.0) {
             return Err(UnitError::new(UnitErrorKind::Lognormal, named.span.clone()));
@@ -262,10 +262,7 @@ impl Reading<'_> {
         if ty.absolute {
             value = above_absolute_zero(value, self.number.span.clone())?;
         }
-        let sigma = self.deviation_in_si(value, ty)?;
-        let distribution = self.distribution(value, ty)?;
-        let spread = |size: f64| Spread { sigma: size / distribution.written(), distribution };
-        Ok(Quantity { value, deviation: sigma.map(spread), ty })
+        Ok(Quantity { value, deviation: self.spread(value, ty)?, ty })
     }
 
     pub(crate) fn scale(&self) -> f64 {

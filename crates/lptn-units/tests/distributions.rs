@@ -31,7 +31,10 @@ fn distributions_stand_behind_deviations() {
     for (text, value, sigma, distribution) in table {
         let quantity = parse_quantity(text, None).unwrap_or_else(|e| panic!("{text}: {e}"));
         let spread = quantity.deviation.unwrap();
-        assert!(close(quantity.value, value) && close(spread.sigma, sigma), "{text}: {spread:?}");
+        assert!(
+            close(quantity.value, value) && close(spread.sigma(value), sigma),
+            "{text}: {spread:?}"
+        );
         assert_eq!(spread.distribution, distribution, "{text}");
     }
 }

@@ -14,7 +14,7 @@ const RESISTANCE: Type = Type::of(Dimension::RESISTANCE);
 fn read(text: &str, ty: Type) -> Result<(f64, Option<f64>), Option<String>> {
     match parse_value(text, Some(ty), &|_| false).map_err(|error| error.help())? {
         Written::Quantity(quantity) => {
-            Ok((quantity.value, quantity.deviation.map(|spread| spread.sigma)))
+            Ok((quantity.value, quantity.deviation.map(|_| quantity.sigma())))
         }
         Written::Expression(expression) => of_expression(&expression, ty),
     }

@@ -163,8 +163,37 @@ fn deviations() {
     for (text, value, deviation) in table {
         let quantity = parse_quantity(text, None).unwrap_or_else(|e| panic!("{text}: {e}"));
         assert!(close(quantity.value, value), "{text}");
-        assert!(close(quantity.deviation.unwrap().sigma, deviation), "{text}");
+        assert!(close(quantity.sigma(), deviation), "{text}");
     }
+}
+
+/// Percents and factors follow a value that is changed, deviations with a unit do not.
+#[test]
+fn a_deviation_in_percent_is_of_any_value() {
+    let half_width = 3_f64.sqrt();
+    let table = [
+        ("100 W ± 5 %", 5.0, 50.0),
+        ("-100 W ± 5 %", 5.0, 50.0),
+        ("100 ± 5 W", 5.0, 5.0),
+        ("100 W ± 5 % (rectangle)", 5.0 / half_width, 50.0 / half_width),
+        ("100 ± 5 W (rectangle)", 5.0 / half_width, 5.0 / half_width),
+        ("100 W ± 5 % (lognormal)", 5.0, 50.0),
+        ("100 ± 5 W (lognormal)", 5.0, 50.0),
+    ];
+    for (text, own, other) in table {
+        let quantity = parse_quantity(text, None).unwrap_or_else(|e| panic!("{text}: {e}"));
+        let spread = quantity.deviation.unwrap();
+        assert!(close(spread.sigma(quantity.value), own), "{text}");
+        assert!(
+            close(spread.sigma(1000.0), other) && close(spread.sigma(-1000.0), other),
+            "{text}"
+        );
+        assert!(!spread.is_certain(), "{text}");
+        if text.contains("lognormal") {
+            assert!([1.0, 100.0].iter().all(|at| close(spread.of_logarithm(*at), 0.05)), "{text}");
+        }
+    }
+    assert!(parse_quantity("100 W ± 0 %", None).unwrap().deviation.unwrap().is_certain());
 }
 
 /// `50 %` is 0.5, and `50 ± 5 %` was 50 ± 2.5.
@@ -180,7 +209,7 @@ fn percent_is_a_unit_like_any_other_before_a_deviation_too() {
     for (text, value, deviation) in table {
         let quantity = parse_quantity(text, None).unwrap_or_else(|e| panic!("{text}: {e}"));
         assert!(close(quantity.value, value), "{text}");
-        assert!(close(quantity.deviation.unwrap().sigma, deviation), "{text}");
+        assert!(close(quantity.sigma(), deviation), "{text}");
     }
     let code = "units::percent_deviation";
     for text in ["0.8 ± 5 %", "80 % ± 5 %", "20 +- 5 % W", "1.2 ± 5 % mK/W", "0 ± 1 %", "3 ± 10 %"]

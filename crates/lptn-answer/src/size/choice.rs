@@ -52,8 +52,7 @@ pub(super) fn choose(
     })?;
     let set = catalogues.iter().flat_map(|parts| parts.parameters.iter().copied());
     let ids = set.chain(varied.iter().map(|(id, _)| *id)).collect();
-    let scale = scale(&choices);
-    Ok(Chosen { asked, choices, ids, scale })
+    Ok(Chosen { asked, choices, ids })
 }
 
 /// Result of choosing parts.
@@ -63,18 +62,6 @@ pub(super) struct Chosen {
     choices: Choices,
     /// The parameters in the order in which designs have them.
     ids: Vec<ParameterId>,
-    /// The largest size of each margin.
-    scale: Vec<f64>,
-}
-
-fn scale(choices: &Choices) -> Vec<f64> {
-    let count = choices.judged.iter().map(|choice| choice.margins().len()).max();
-    let mut scale = vec![f64::MIN_POSITIVE; count.unwrap_or(0)];
-    for choice in &choices.judged {
-        let sizes = choice.margins().iter().map(|margin| margin.abs());
-        scale.iter_mut().zip(sizes).for_each(|(most, size)| *most = most.max(size));
-    }
-    scale
 }
 
 impl Chosen {
@@ -107,11 +94,9 @@ impl Chosen {
         }
     }
 
-    /// The requirement that is broken by most, in shares of its largest margin.
-    /// If all are kept, it is the closest one.
+    /// The requirement that is broken most. If all are kept, it is the closest one.
     fn worst(&self, choice: &Choice) -> usize {
-        let shares = choice.margins().iter().zip(&self.scale).map(|(m, scale)| m / scale);
-        shares.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(i, _)| i)
+        choice.judged.as_ref().map_or(0, |judged| self.choices.shortfall.worst(judged))
     }
 
     fn margin(&self, choice: &Choice, i: usize) -> String {
@@ -138,15 +123,15 @@ impl Chosen {
     fn nearest(&self) -> Vec<&Choice> {
         let broken = self.choices.judged.iter().filter(|choice| !choice.keeps());
         let mut nearest: Vec<&Choice> = broken.collect();
-        nearest.sort_by(|a, b| self.share(b).total_cmp(&self.share(a)));
+        nearest.sort_by(|a, b| self.least(b).total_cmp(&self.least(a)));
         nearest.truncate(MOST_CHEAPER);
         nearest
     }
 
-    /// The margin of the worst requirement as a share of its size.
-    fn share(&self, choice: &Choice) -> f64 {
-        let i = self.worst(choice);
-        choice.margins().get(i).map_or(f64::NEG_INFINITY, |margin| margin / self.scale[i])
+    /// The margin of the worst requirement in one measure for all.
+    fn least(&self, choice: &Choice) -> f64 {
+        let least = choice.judged.as_ref().map(|judged| self.choices.shortfall.least(judged));
+        least.unwrap_or(f64::NEG_INFINITY)
     }
 
     fn table(&self) -> TextTable {

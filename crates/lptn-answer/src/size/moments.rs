@@ -2,7 +2,7 @@
 
 use lptn_netlist::{Netlist, Over, SizeStudy};
 use lptn_network::{Network, RunSettings};
-use lptn_study::uncertainty::uncertain;
+use lptn_study::uncertainty::uncertain_anywhere;
 use lptn_study::{Demand, Doubt, Moments, Watcher};
 
 use super::kept::cases;
@@ -39,7 +39,7 @@ pub(super) fn demanded<T>(
         Over::Periodic => Moments::Periodic(&cycle),
     };
     let cases = cases(netlist, study);
-    let inputs = uncertain(&netlist.network, &netlist.overrides()).ok();
+    let inputs = uncertain_anywhere(&netlist.network, &netlist.overrides()).ok();
     let probability = study.probability(&netlist.network).ok().flatten();
     ask(Demand {
         network: &netlist.network,

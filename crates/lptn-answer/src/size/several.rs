@@ -102,12 +102,6 @@ impl Sized {
         format!("{text} = {}", page::sought(&self.asked, self.found.design.objective))
     }
 
-    fn worst(&self) -> Option<usize> {
-        let judged = &self.found.design.judged;
-        let margins = judged.margins.iter().enumerate();
-        margins.min_by(|a, b| a.1.total_cmp(b.1)).map(|(i, _)| i)
-    }
-
     fn verdict(&self) -> String {
         if self.found.feasible {
             let goal = page::goal(self.asked.study.goal);
@@ -116,11 +110,10 @@ impl Sized {
                 self.objective()
             );
         }
-        let broken = self.worst().map_or_else(String::new, |i| {
-            let off = self.kept().margin(i, -self.found.design.judged.margins[i]);
-            format!("`{}` is broken by {off}", self.kept().text(i))
-        });
-        format!("infeasible: at the closest values that were found {broken}")
+        let i = self.found.worst;
+        let off = self.kept().margin(i, -self.found.design.judged.margins[i]);
+        let text = self.kept().text(i);
+        format!("infeasible: at the closest values that were found `{text}` is broken by {off}")
     }
 }
 
@@ -187,7 +180,7 @@ impl Page for Sized {
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        let (judged, worst) = (&self.found.design.judged, self.worst());
+        let (judged, worst) = (&self.found.design.judged, self.found.worst);
         let mut requirements = self.kept().members(judged);
         for (i, member) in requirements.iter_mut().enumerate() {
             member["binds"] = self.found.binding.contains(&i).into();
@@ -197,10 +190,7 @@ impl Page for Sized {
         let binding = self.found.binding.first().map(|&i| &self.kept().requirement(i).text);
         self.asked.input.head(json, &self.kept().doubts())?;
         json.member("values", &self.asked.values(&self.values()))?;
-        json.member(
-            "margin",
-            &worst.map(|i| SiValue::new(judged.margins[i], &self.kept().unit(i))),
-        )?;
+        json.member("margin", &SiValue::new(judged.margins[worst], &self.kept().unit(worst)))?;
         json.member("binding", &binding)?;
         json.member("feasible", &self.found.feasible)?;
         json.member("over", self.asked.study.over.word())?;

@@ -49,7 +49,7 @@ impl Uncertain {
     /// A parameter of this value with its spread.
     pub fn new(parameter: ParameterId, value: f64, spread: Spread) -> Self {
         let lognormal = spread.distribution == Distribution::Lognormal && value > 0.0;
-        let deviation = if lognormal { spread.of_logarithm(value) } else { spread.sigma };
+        let deviation = if lognormal { spread.of_logarithm(value) } else { spread.sigma(value) };
         Self { parameter, deviation, lognormal }
     }
 

@@ -2,7 +2,7 @@
 
 use lptn_netlist::{Posterior, PosteriorOf, PosteriorQuantity};
 use lptn_units::statistics::student_95;
-use lptn_units::{Correlations, Distribution, Spread};
+use lptn_units::{Correlations, Spread};
 
 use super::candidate::{Coefficient, LawFit};
 
@@ -24,7 +24,7 @@ impl LawFit {
                 of: PosteriorOf::Parameter,
                 value: own.value,
                 unit: own.dimension.si_unit(),
-                spread: Some(Spread { sigma, distribution: Distribution::Normal }),
+                spread: Some(Spread::normal(sigma)),
                 half_width: Some(half_width),
                 degrees_of_freedom: degrees,
                 bounds: (f64::NEG_INFINITY, f64::INFINITY),

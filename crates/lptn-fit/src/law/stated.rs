@@ -108,7 +108,7 @@ impl StatedLaw {
                     text: text.to_owned(),
                     relative_error: quantity
                         .deviation
-                        .map(|spread| spread.sigma / quantity.value.abs()),
+                        .map(|spread| spread.sigma(quantity.value) / quantity.value.abs()),
                     form: Form::Power(quantity.value, exponent.to_f64()),
                 })
             }

@@ -52,7 +52,7 @@ impl NetworkFit {
         let distribution = if logarithmic { Distribution::Lognormal } else { Distribution::Normal };
         let spread = |sigma: f64| PosteriorPrior {
             value: unknown.own,
-            spread: Spread { sigma, distribution: unknown.distribution },
+            spread: Spread::of(unknown.own, sigma, unknown.distribution),
         };
         PosteriorQuantity {
             name,
@@ -65,7 +65,7 @@ impl NetworkFit {
             spread: fitted
                 .standard_error
                 .filter(|error| *error > 0.0)
-                .map(|sigma| Spread { sigma, distribution }),
+                .map(|sigma| Spread::of(fitted.value, sigma, distribution)),
             half_width: fitted.half_width,
             degrees_of_freedom: fitted.degrees_of_freedom.filter(|degrees| degrees.is_finite()),
             bounds: unknown.bounds,

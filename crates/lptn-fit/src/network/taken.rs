@@ -59,7 +59,9 @@ impl NetworkFitTask {
                 if known.is_none() {
                     found.push(Off { parameter, by: vec![0.0; self.runs.len()] });
                 }
-                found[at].by[i] = spread.sigma;
+                let set = run.parameters.value(parameter);
+                let value = set.unwrap_or_else(|| self.network.parameter_value(parameter));
+                found[at].by[i] = spread.sigma(value);
             }
         }
         found

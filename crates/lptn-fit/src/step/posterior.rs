@@ -2,7 +2,7 @@
 
 use lptn_netlist::{Posterior, PosteriorOf, PosteriorQuantity};
 use lptn_units::statistics::student_95;
-use lptn_units::{Correlations, Dimension, Distribution, Spread};
+use lptn_units::{Correlations, Dimension, Spread};
 
 use super::{Capacity, Power, StepFit};
 
@@ -90,7 +90,7 @@ impl Derived {
             of: PosteriorOf::Parameter,
             value: self.value,
             unit: self.dimension.si_unit(),
-            spread: Some(Spread { sigma, distribution: Distribution::Normal }),
+            spread: Some(Spread::normal(sigma)),
             half_width: Some(student_95(degrees.unwrap_or(f64::INFINITY)) * sigma),
             degrees_of_freedom: degrees,
             bounds: (0.0, f64::INFINITY),

@@ -14,10 +14,21 @@ use crate::course_text::course;
 use crate::raw::{RawKind, RawTable, RawValue};
 use crate::toml_text::{TomlFields, celsius, list, list_in, point, quantity, string, strings};
 
-/// The number after `±`, and the suffix after the unit.
-fn behind(spread: Spread) -> (String, String) {
-    let written = format_number(spread.sigma * spread.distribution.written());
-    (written, spread.suffix())
+/// A value of this unit with its deviation, which is in percent again if it was.
+fn uncertain(number: &str, unit: &str, (spread, value): (Spread, f64)) -> String {
+    let suffix = spread.suffix();
+    match spread.percent() {
+        // `2 ± 5 %` would be a number in percent
+        Some(percent) => {
+            let unit = if unit.is_empty() { "m/m" } else { unit };
+            format!("\"{number} {unit} ± {} %{suffix}\"", format_number(percent))
+        }
+        None => {
+            let behind = format_number(spread.sigma(value) * spread.distribution.written());
+            let space = if unit.is_empty() { "" } else { " " };
+            format!("\"{number} ± {behind}{space}{unit}{suffix}\"")
+        }
+    }
 }
 
 impl Writer<'_> {
@@ -44,20 +55,17 @@ impl Writer<'_> {
         {
             return string(program.text().trim());
         }
-        match (parameter.deviation, parameter.ty.absolute) {
+        let set = self.origin.overrides().deviation(id);
+        match (set.or(parameter.deviation), parameter.ty.absolute) {
             (None, true) => point(number),
             (None, false) => quantity(number, parameter.ty),
-            (Some(spread), true) => {
-                let (behind, suffix) = behind(spread);
-                format!("\"{} ± {behind} degC{suffix}\"", celsius(number))
-            }
+            (Some(spread), true) => uncertain(&celsius(number), "degC", (spread, number)),
             (Some(spread), false) => {
-                let (behind, suffix) = behind(spread);
                 let unit = match parameter.ty.is_scalar() {
                     true => String::new(),
-                    false => format!(" {}", parameter.ty.dimension.si_unit()),
+                    false => parameter.ty.dimension.si_unit(),
                 };
-                format!("\"{} ± {behind}{unit}{suffix}\"", format_number(number))
+                uncertain(&format_number(number), &unit, (spread, number))
             }
         }
     }

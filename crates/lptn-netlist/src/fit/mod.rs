@@ -155,8 +155,9 @@ impl FitStudy {
             let from = entry.from.as_ref().map_or(Ok(f64::NEG_INFINITY), &mut at)?;
             let to = entry.to.as_ref().map_or(Ok(f64::INFINITY), &mut at)?;
             let own = network.parameters()[parameter.index()].deviation;
-            let deviation = set.deviation(parameter).or(own);
-            let prior = deviation.map(|spread| spread.sigma).filter(|sigma| *sigma > 0.0);
+            let value = network.parameter_value(parameter);
+            let sigma = set.deviation(parameter).or(own).map(|spread| spread.sigma(value));
+            let prior = sigma.filter(|sigma| *sigma > 0.0);
             varied.push(Varied { parameter, bounds: (from, to), prior });
         }
         let sigmas: Result<_, _> = self

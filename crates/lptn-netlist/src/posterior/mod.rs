@@ -92,7 +92,7 @@ impl PosteriorQuantity {
         let spread = self.spread?;
         Some(match spread.distribution {
             Distribution::Lognormal => spread.of_logarithm(self.value),
-            Distribution::Normal | Distribution::Rectangle => spread.sigma,
+            Distribution::Normal | Distribution::Rectangle => spread.sigma(self.value),
         })
     }
 }

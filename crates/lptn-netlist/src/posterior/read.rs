@@ -203,15 +203,15 @@ fn quantity(i: usize, value: JsonValue<'_>) -> Result<PosteriorQuantity, Wrong> 
                 let words = format!("`{name}` is lognormal and has to be more than zero");
                 return Err(("posterior::member", words, object.get("value")?.span()));
             }
-            Some(Spread { sigma, distribution })
+            Some(Spread::of(found, sigma, distribution))
         }
     };
     let prior = object.member("prior").filter(|prior| prior.written() != "null");
     let prior = prior.map(|prior| {
         let prior = Object::of(format!("`prior` of `{name}`"), prior)?;
-        let sigma = prior.number("standard_deviation")?;
-        let spread = Spread { sigma, distribution: prior.distribution("distribution")? };
-        Ok(PosteriorPrior { value: prior.number("value")?, spread })
+        let (value, sigma) = (prior.number("value")?, prior.number("standard_deviation")?);
+        let spread = Spread::of(value, sigma, prior.distribution("distribution")?);
+        Ok(PosteriorPrior { value, spread })
     });
     Ok(PosteriorQuantity {
         of,

@@ -57,7 +57,7 @@ fn member(quantity: &PosteriorQuantity) -> Value {
     put("of", json!(quantity.of.word()));
     put("value", json!(quantity.value));
     put("unit", json!(quantity.unit));
-    put("standard_error", json!(quantity.spread.map(|spread| spread.sigma)));
+    put("standard_error", json!(quantity.spread.map(|spread| spread.sigma(quantity.value))));
     put("distribution", json!(quantity.spread.map(|spread| spread.distribution.word())));
     put("half_width_95", json!(quantity.half_width));
     put("degrees_of_freedom", json!(quantity.degrees_of_freedom.and_then(finite)));
@@ -70,7 +70,7 @@ fn member(quantity: &PosteriorQuantity) -> Value {
 fn of_prior(value: f64, spread: Spread) -> Value {
     json!({
         "value": value,
-        "standard_deviation": spread.sigma,
+        "standard_deviation": spread.sigma(value),
         "distribution": spread.distribution.word(),
     })
 }

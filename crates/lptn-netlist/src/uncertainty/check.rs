@@ -2,7 +2,7 @@
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{Network, Parameters};
-use lptn_units::{Distribution, Unit};
+use lptn_units::{Distribution, Spread, Unit};
 
 use super::file::Found;
 use super::{UncertaintyPlan, WrittenCorrelation};
@@ -53,7 +53,7 @@ pub(crate) fn check(
         let certain = |name: &&String| {
             let own = network.parameter(name).ok();
             let own = own.and_then(|id| network.parameters()[id.index()].deviation);
-            own.is_none_or(|own| own.sigma <= 0.0) && found(name).is_none_or(|q| q.spread.is_none())
+            own.is_none_or(Spread::is_certain) && found(name).is_none_or(|q| q.spread.is_none())
         };
         if let Some(name) = [a, b].into_iter().find(certain) {
             let message = format!("`correlation` names `{name}`, which is certain");

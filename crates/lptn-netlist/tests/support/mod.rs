@@ -18,10 +18,10 @@ pub(crate) fn seen(network: &Network) -> Vec<(String, Vec<f64>)> {
     }
     for id in network.parameter_ids() {
         let parameter = &network.parameters()[id.index()];
-        let numbers = vec![
-            network.parameter_value(id),
-            parameter.deviation.map_or(0.0, |spread| spread.sigma),
-        ];
+        let value = network.parameter_value(id);
+        // also of another value, which percents follow
+        let sigma = |at: f64| parameter.deviation.map_or(0.0, |spread| spread.sigma(at));
+        let numbers = vec![value, sigma(value), sigma(2.0 * value)];
         seen.push((format!("parameter {} {}", parameter.name, parameter.ty), numbers));
     }
     let count = network.nodes().len() + network.boundaries().len();

@@ -47,8 +47,8 @@ pub struct Sizing {
     pub verdict: Verdict,
     /// The value with its margins; if it is infeasible, the value that comes closest.
     pub trial: Trial,
-    /// The requirement that is closest to being broken, relative to how much it varies over the
-    /// range.
+    /// The requirement that is broken most, or is the closest to it, in the measure of
+    /// [`Shortfall`](crate::Shortfall).
     pub closest: usize,
     /// The value in SI units at which a requirement breaks again on the far side of the answer:
     /// more, or for a maximum less, is not always better.

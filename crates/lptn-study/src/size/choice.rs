@@ -14,6 +14,7 @@ use crate::size::design::{Design, Designs};
 use crate::size::error::{SizeError, TrialError};
 use crate::size::judge::{Care, Demand, Judged};
 use crate::size::several::{SeveralTask, size_several};
+use crate::size::shortfall::Shortfall;
 
 /// More combinations than these are refused.
 const MOST: usize = 1_000_000;
@@ -88,6 +89,8 @@ pub struct Choices {
     pub judged: Vec<Choice>,
     /// The best one that keeps everything, by its position among them.
     pub best: Option<usize>,
+    /// The measure of requirements that are broken.
+    pub shortfall: Shortfall,
     /// Number of combinations.
     pub count: usize,
     /// Number of networks that were solved.
@@ -131,7 +134,8 @@ pub fn choose(task: &ChoiceTask<'_>) -> Result<Choices, SizeError> {
         return Err(error[0].clone());
     }
     let best = judged.iter().position(Choice::keeps);
-    Ok(Choices { judged, best, count, solved: solved + designs.judge.count() })
+    let shortfall = Shortfall::of(&task.demand);
+    Ok(Choices { judged, best, shortfall, count, solved: solved + designs.judge.count() })
 }
 
 /// The positions of a combination; the last catalogue changes fastest.

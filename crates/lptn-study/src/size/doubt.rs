@@ -96,7 +96,7 @@ impl Judge<'_> {
             self.in_case((&design, case), care).map(|judged| judged.margins)
         };
         let rectangle =
-            direction.iter().any(|(input, _)| input.distribution == Distribution::Rectangle);
+            direction.iter().any(|(input, _)| input.spread.distribution == Distribution::Rectangle);
         let by = if rectangle { deviations.min(RECTANGLE) } else { deviations };
         let (found, by) = match at(by) {
             Err(TrialError::Network(_)) => (at(1.0)?, 1.0),

@@ -21,6 +21,7 @@ mod proof;
 mod root;
 mod search;
 mod several;
+mod shortfall;
 #[cfg(not(target_family = "wasm"))]
 mod smooth;
 #[cfg(target_family = "wasm")]
@@ -38,3 +39,4 @@ pub use load_case::LoadCase;
 pub use proof::certify;
 pub use search::size;
 pub use several::{Several, SeveralTask, size_several};
+pub use shortfall::Shortfall;

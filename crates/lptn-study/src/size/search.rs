@@ -10,6 +10,7 @@ use crate::size::answer::{Edge, SizeTask, Sizing, Trial, Verdict};
 use crate::size::error::SizeError;
 use crate::size::judge::{Care, Judge, Moments};
 use crate::size::root::{last_kept, norton_guess};
+use crate::size::shortfall::Shortfall;
 
 /// Points at which the range is evaluated.
 const POINTS: usize = 25;
@@ -18,9 +19,12 @@ const POINTS: usize = 25;
 pub(crate) const WIDE: f64 = 10.0;
 
 /// Steps of the search for a value that keeps every requirement if no point does: golden section,
-/// to 2e-9 of its interval. Half of them, to 4e-5, if margins have the error of a run: at the top
-/// they hardly change.
+/// to 2e-9 of its interval. After half of them, at 4e-5, margins with the error of a run have to
+/// show a difference: at a round top they hardly change, at a crossing of two they do.
 const GOLDEN_STEPS: usize = 42;
+
+/// Margins of the finest runs that differ by less than this in K may be the same.
+const NOISE: f64 = 1e-8;
 
 /// Values that differ by less than this share are the same if margins have the error of a run.
 const RESOLUTION: f64 = 1e-12;
@@ -41,10 +45,10 @@ pub fn size(task: &SizeTask<'_>) -> Result<Sizing, SizeError> {
     if !(from.is_finite() && to.is_finite() && from < to) {
         return Err(SizeError::Range { from, to });
     }
-    let judge = Judge::new(task.demand)?;
+    let (judge, shortfall) = (Judge::new(task.demand)?, Shortfall::of(&task.demand));
     let trials = Trials { task, judge };
     let scan = places(task).map(|value| trials.look(value)).collect::<Result<Vec<_>, _>>()?;
-    let search = Search { scale: scales(&scan), trials, scan };
+    let search = Search { scale: scales(&scan), shortfall, trials, scan };
     let found = search.best()?;
     let closest = search.closest(&found.trial);
     let sensitivity = match found.edge {
@@ -90,7 +94,8 @@ fn places(task: &SizeTask<'_>) -> impl Iterator<Item = f64> + use<> {
     })
 }
 
-/// The largest size of each margin: requirements of different units are compared in shares of it.
+/// The largest size of each margin. Borders and edges are located in shares of it; the answer does
+/// not depend on them, since a border is a sign.
 fn scales(scan: &[Trial]) -> Vec<f64> {
     let count = scan.first().map_or(0, |trial| trial.judged.margins.len());
     let largest =
@@ -136,6 +141,8 @@ pub(super) struct Search<'a> {
     pub(super) trials: Trials<'a>,
     scan: Vec<Trial>,
     scale: Vec<f64>,
+    /// The measure of requirements that are broken.
+    shortfall: Shortfall,
 }
 
 struct Found {
@@ -172,9 +179,14 @@ impl Search<'_> {
         self.shares(trial).fold(f64::INFINITY, f64::min)
     }
 
+    /// The requirement that is broken most, or is the closest to it.
     pub(super) fn closest(&self, trial: &Trial) -> usize {
-        let shares = self.shares(trial).enumerate();
-        shares.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(i, _)| i)
+        self.shortfall.worst(&trial.judged)
+    }
+
+    /// True if the first of two trials comes closer to keeping everything, by more than this in K.
+    fn closer(&self, a: &Trial, b: &Trial, than: f64) -> bool {
+        self.shortfall.closer(&a.judged, &b.judged, than)
     }
 
     pub(super) fn keeps(&self, trial: &Trial) -> bool {
@@ -279,13 +291,13 @@ impl Search<'_> {
     }
 
     /// No place keeps everything: perhaps a value between them does. Golden section around the best
-    /// place.
+    /// place, the first of equal ones, which is nearest to the best end.
     fn between_the_places(&self) -> Result<Found, SizeError> {
-        let by_worst = |a: &usize, b: &usize| {
-            self.worst(&self.scan[*a]).total_cmp(&self.worst(&self.scan[*b]))
+        let better = |best: usize, place: usize| {
+            let (a, b) = (&self.scan[place], &self.scan[best]);
+            if self.closer(a, b, a.judged.error.max(b.judged.error)) { place } else { best }
         };
-        // the first of equal ones, which is nearer to the best end
-        let best = (0..self.scan.len()).rev().max_by(by_worst).unwrap_or(0);
+        let best = (0..self.scan.len()).fold(0, better);
         let near = [best.saturating_sub(1), best, (best + 1).min(self.scan.len() - 1)];
         let [low, middle, high] = near.map(|place| self.proven(place));
         let (low, high) = (&low?, &high?);
@@ -304,17 +316,20 @@ impl Search<'_> {
         let golden = 0.5 * (5_f64.sqrt() - 1.0);
         let inner = |from: f64, to: f64| self.trials.at(to - golden * (to - from));
         let (mut left, mut right) = (inner(a, b)?, inner(b, a)?);
-        let steps = if self.trials.exact() { GOLDEN_STEPS } else { GOLDEN_STEPS / 2 };
-        for _ in 0..steps {
+        let exact = self.trials.exact();
+        let (rough, noise) = if exact { (GOLDEN_STEPS, 0.0) } else { (GOLDEN_STEPS / 2, NOISE) };
+        let closer = |a: &Trial, b: &Trial| self.closer(a, b, noise);
+        for step in 0..GOLDEN_STEPS {
             for trial in [&left, &right] {
-                if self.worst(trial) > self.worst(&best) {
+                if closer(trial, &best) {
                     best = trial.clone();
                 }
             }
-            if self.keeps(&best) {
+            let same = || !closer(&left, &right) && !closer(&right, &left);
+            if self.keeps(&best) || (step >= rough && same()) {
                 break;
             }
-            if self.worst(&left) >= self.worst(&right) {
+            if !closer(&right, &left) {
                 b = right.value;
                 right = left;
                 left = inner(a, b)?;

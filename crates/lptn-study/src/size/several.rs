@@ -17,6 +17,7 @@ use crate::size::error::SizeError;
 use crate::size::judge::{Care, Demand};
 use crate::size::root::last_kept;
 use crate::size::search::WIDE;
+use crate::size::shortfall::Shortfall;
 use crate::size::smooth::{Effort, Values, minimise};
 
 /// Places for each parameter that is varied, at least; their number doubles with each.
@@ -60,6 +61,8 @@ pub struct Several {
     pub feasible: bool,
     /// The requirements that bind, by their positions among the margins.
     pub binding: Vec<usize>,
+    /// The requirement that is broken most, or is the closest to it, among the margins.
+    pub worst: usize,
     /// The designs that were evaluated first.
     pub looked_at: Vec<Design>,
     /// Number of networks that were solved.
@@ -86,8 +89,8 @@ pub fn size_several(task: &SeveralTask<'_>) -> Result<Several, SizeError> {
     let (place, design) = search.best()?;
     let feasible = design.judged.keeps();
     let binding = search.binding(&place, &design)?;
-    let solved = designs.judge.count();
-    Ok(Several { design, feasible, binding, looked_at: search.looked_at, solved })
+    let (worst, solved) = (search.shortfall.worst(&design.judged), designs.judge.count());
+    Ok(Several { design, feasible, binding, worst, looked_at: search.looked_at, solved })
 }
 
 /// Places that fill the unit box evenly, its corners first.
@@ -136,6 +139,8 @@ struct Search<'a> {
     /// The largest size of each margin, and the spread of the objective.
     scale: Vec<f64>,
     spread: f64,
+    /// The measure of requirements that are broken.
+    shortfall: Shortfall,
 }
 
 type Found = (Vec<f64>, Design);
@@ -155,7 +160,8 @@ impl<'a> Search<'a> {
         let objectives = || looked_at.iter().map(|design| design.objective);
         let spread = objectives().fold(f64::NEG_INFINITY, f64::max)
             - objectives().fold(f64::INFINITY, f64::min);
-        Self { task, designs, places, looked_at, scale, spread: one(spread) }
+        let shortfall = Shortfall::of(&task.demand);
+        Self { task, designs, places, looked_at, scale, spread: one(spread), shortfall }
     }
 
     /// The least margin as a share of its scale.
@@ -167,9 +173,9 @@ impl<'a> Search<'a> {
     /// The better of two comes first: designs that keep everything by the objective, the others by
     /// how far they fail.
     fn order(&self, a: &Design, b: &Design) -> std::cmp::Ordering {
-        let rank = |design: &Design| match self.worst(design) {
-            worst if worst >= 0.0 => (0.0_f64, self.designs.cost(design.objective)),
-            worst => (1.0, -worst),
+        let rank = |design: &Design| match self.shortfall.least(&design.judged) {
+            least if least >= 0.0 => (0.0_f64, self.designs.cost(design.objective)),
+            least => (1.0, -least),
         };
         let ((a, a_by), (b, b_by)) = (rank(a), rank(b));
         a.total_cmp(&b).then(a_by.total_cmp(&b_by))
@@ -205,17 +211,37 @@ impl<'a> Search<'a> {
         found.sort_by(|a, b| self.order(&a.1, &b.1));
         // a requirement that a rough evaluation breaks may only touch its limit
         let near = found.iter().position(|(_, design)| self.worst(design) >= -ROUGH.accuracy);
-        let start = &found[near.unwrap_or(0)].0;
-        let place = self.search(start, (Care::Proof, FINE))?;
+        let start = found.swap_remove(near.unwrap_or(0)).0;
+        let place = self.search(&start, (Care::Proof, FINE))?;
         let design = self.at(&place, Care::Proof)?;
         let anchor = first.filter(|(_, design)| design.judged.keeps());
         let mut proven = vec![self.on_the_kept_side((place, design), anchor.as_ref())?];
-        if let Some((place, _)) = anchor {
-            let design = self.at(&place, Care::Proof)?;
-            proven.push((place, design));
-        }
+        // a search without a place that keeps everything may lead away from it
+        let other = anchor.map_or(start, |(place, _)| place);
+        let design = self.at(&other, Care::Proof)?;
+        proven.push((other, design));
         proven.sort_by(|a, b| self.order(&a.1, &b.1));
-        Ok(proven.swap_remove(0))
+        let best = proven.swap_remove(0);
+        if best.1.judged.keeps() { Ok(best) } else { self.closest(best) }
+    }
+
+    /// The place whose worst requirement is broken least, searched from this one. One more
+    /// coordinate is the shortfall that all requirements have to stay within, as a share of the
+    /// first; less of it is better.
+    fn closest(&self, (start, design): Found) -> Result<Found, SizeError> {
+        let most = -self.shortfall.least(&design.judged);
+        let within = |place: &[f64]| {
+            let (share, place) = place.split_last().unwrap_or((&1.0, &[]));
+            let judged = self.at(place, Care::Proof)?.judged;
+            let margins = self.shortfall.measured(&judged).map(|margin| margin / most + share);
+            Ok((*share, margins.collect()))
+        };
+        let from: Vec<f64> = start.iter().copied().chain([1.0]).collect();
+        let mut place = minimise(&within, (&from, self.scale.len()), FINE)?;
+        place.truncate(start.len());
+        let found = self.at(&place, Care::Proof)?;
+        let closer = self.shortfall.closer(&found.judged, &design.judged, 0.0);
+        Ok(if closer { (place, found) } else { (start, design) })
     }
 
     /// The best places, not near each other.

@@ -15,16 +15,19 @@ pub struct Uncertain {
     pub parameter: ParameterId,
     /// Its value in SI units, absolute temperatures in K: the mean, for a lognormal one the median.
     pub value: f64,
-    /// One standard deviation in SI units, more than 0; for a lognormal one to first order.
-    pub deviation: f64,
-    /// Its distribution.
-    pub distribution: Distribution,
+    /// Its uncertainty, which may follow the value.
+    pub spread: Spread,
 }
 
 impl Uncertain {
+    /// One standard deviation in SI units; for a lognormal one to first order.
+    pub fn deviation(&self) -> f64 {
+        self.spread.sigma(self.value)
+    }
+
     /// The deviation that a normal number means, in standard deviations to first order.
     pub(crate) fn standard(&self, score: f64) -> f64 {
-        match self.distribution {
+        match self.spread.distribution {
             Distribution::Normal | Distribution::Lognormal => score,
             Distribution::Rectangle => 3_f64.sqrt() * (2.0 * share_below(score) - 1.0),
         }
@@ -35,17 +38,14 @@ impl Uncertain {
         self.moved(self.value, self.standard(score))
     }
 
-    /// Another value of the parameter, moved by this number of standard deviations.
+    /// Another value of the parameter, moved by this number of its standard deviations.
     pub(crate) fn moved(&self, value: f64, deviations: f64) -> f64 {
-        match self.distribution {
-            Distribution::Normal | Distribution::Rectangle => value + deviations * self.deviation,
-            Distribution::Lognormal => value * (deviations * self.of_logarithm()).exp(),
+        match self.spread.distribution {
+            Distribution::Normal | Distribution::Rectangle => {
+                value + deviations * self.spread.sigma(value)
+            }
+            Distribution::Lognormal => value * (deviations * self.spread.of_logarithm(value)).exp(),
         }
-    }
-
-    fn of_logarithm(&self) -> f64 {
-        let spread = Spread { sigma: self.deviation, distribution: self.distribution };
-        spread.of_logarithm(self.value)
     }
 }
 
@@ -121,25 +121,49 @@ impl Inputs {
 }
 
 /// The parameters of `network` that are not certain, in the order of the network. A deviation in
-/// `parameters`, the values set instead of its own, replaces the `±` of the network.
+/// `parameters`, the values set instead of its own, replaces the `±` of the network. Percents of
+/// zero are certain.
 ///
 /// # Errors
 /// [`UncertaintyError::NoDeviation`] if all are certain, [`UncertaintyError::NotDefinite`] if their
 /// correlations contradict each other.
 pub fn uncertain(network: &Network, parameters: &Parameters) -> Result<Inputs, UncertaintyError> {
-    let known = parameters.uncertain();
-    let one = |&(parameter, Spread { sigma, distribution }): &(ParameterId, Spread)| Uncertain {
+    let all = with_deviations(network, parameters).filter(|input| input.deviation() > 0.0);
+    joint(network, parameters, all.collect())
+}
+
+/// The same for a study that changes values of parameters, which makes percents of zero uncertain.
+///
+/// # Errors
+/// As for [`uncertain`].
+pub fn uncertain_anywhere(
+    network: &Network,
+    parameters: &Parameters,
+) -> Result<Inputs, UncertaintyError> {
+    joint(network, parameters, with_deviations(network, parameters).collect())
+}
+
+/// The parameters with a deviation.
+fn with_deviations(network: &Network, parameters: &Parameters) -> impl Iterator<Item = Uncertain> {
+    let one = |(parameter, spread)| Uncertain {
         parameter,
         value: network.parameter_value(parameter),
-        deviation: sigma,
-        distribution,
+        spread,
     };
-    let all: Vec<Uncertain> = known.iter().map(one).collect();
+    parameters.uncertain().into_iter().map(one)
+}
+
+fn joint(
+    network: &Network,
+    parameters: &Parameters,
+    all: Vec<Uncertain>,
+) -> Result<Inputs, UncertaintyError> {
     if all.is_empty() {
         return Err(UncertaintyError::NoDeviation);
     }
     let ids: Vec<ParameterId> = all.iter().map(|input| input.parameter).collect();
-    let distributions: Vec<Distribution> = all.iter().map(|input| input.distribution).collect();
+    let distributions: Vec<Distribution> =
+        all.iter().map(|input| input.spread.distribution).collect();
     let correlations = parameters.correlations_of(&ids);
     let name = |i: usize| network.parameters()[ids[i].index()].name.clone();
     let impossible = |i| UncertaintyError::NotDefinite { parameter: name(i) };
@@ -157,7 +181,7 @@ mod tests {
     fn one(distribution: Distribution) -> Uncertain {
         let mut builder = lptn_network::NetworkBuilder::new();
         let parameter = builder.parameter("a", lptn_network::Input::number(2.0));
-        Uncertain { parameter, value: 2.0, deviation: 0.5, distribution }
+        Uncertain { parameter, value: 2.0, spread: Spread::of(2.0, 0.5, distribution) }
     }
 
     /// `scipy.stats.norm.cdf(0.7)` is 0.758036347776927; 2 + 0.5 sqrt(3) (2 x 0.758.. - 1) and

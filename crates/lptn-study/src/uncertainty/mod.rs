@@ -24,7 +24,7 @@ pub use answer::{Answer, AnswerOf, Contribution};
 pub use difference::{Discrepancy, discrepancies};
 pub use error::UncertaintyError;
 pub use estimate::Estimate;
-pub use input::{Inputs, Uncertain, uncertain};
+pub use input::{Inputs, Uncertain, uncertain, uncertain_anywhere};
 pub use lost::Lost;
 pub use result::{Bands, Bent, Uncertainty, UncertaintyMethod};
 pub use sobol::{GROUPS, Sobol};

@@ -94,7 +94,7 @@ impl Page for FitStepAnswer {
         let capacity = request
             .capacity
             .as_ref()
-            .map(|c| json!({ "value": c.value, "unit": "J/K", "standard_error": c.deviation.map(|d| d.sigma) }));
+            .map(|c| json!({ "value": c.value, "unit": "J/K", "standard_error": c.deviation.map(|d| d.sigma(c.value)) }));
         let network = self.model.as_ref().map(|model| &model.stem);
         let all = [self.doubts.as_slice(), &self.problems].concat();
         json.member("format", &1)?;

@@ -101,7 +101,7 @@ pub(crate) fn inputs(network: &Network, found: &Uncertainty) -> Vec<InputBand> {
         .map(|i| {
             let input = &found.inputs[i];
             let mut parameters = network.overrides();
-            parameters.set(input.parameter, input.value + input.deviation);
+            parameters.set(input.parameter, input.value + input.deviation());
             network.with(&parameters).ok()
         })
         .collect();

@@ -126,11 +126,11 @@ pub(crate) fn given((network, unit): (&Network, &Unit), found: &Uncertainty) -> 
 fn parameters((network, unit): (&Network, &Unit), found: &Uncertainty) -> Value {
     let one = |(i, input): (usize, &lptn_study::uncertainty::Uncertain)| {
         let ty = network.parameters()[input.parameter.index()].ty;
-        let sd = scale::scalar(input.deviation, Type::of(ty.dimension), unit);
+        let sd = scale::scalar(input.deviation(), Type::of(ty.dimension), unit);
         let member = json!({
             "value": scale::scalar(input.value, ty, unit),
             "sd": sd,
-            "distribution": input.distribution.word(),
+            "distribution": input.spread.distribution.word(),
         });
         (parameter(network, found, i), member)
     };

@@ -31,7 +31,7 @@ pub(super) fn described(network: &Network, found: &Uncertainty) -> Vec<(&'static
         [("rectangle: ", Distribution::Rectangle), ("lognormal: ", Distribution::Lognormal)]
     {
         let names: Vec<String> = (0..found.inputs.len())
-            .filter(|&i| found.inputs[i].distribution == distribution)
+            .filter(|&i| found.inputs[i].spread.distribution == distribution)
             .map(|i| parameter(network, found, i))
             .collect();
         if !names.is_empty() {
@@ -69,12 +69,12 @@ pub(super) fn deviation(network: &Network, found: &Uncertainty, input: usize) ->
     let input = &found.inputs[input];
     let ty = network.parameters()[input.parameter.index()].ty;
     if ty.absolute {
-        return format!("{} K", significant(input.deviation, 3));
+        return format!("{} K", significant(input.deviation(), 3));
     }
     if input.value == 0.0 {
-        return format!("{} {}", significant(input.deviation, 3), ty.dimension.si_unit());
+        return format!("{} {}", significant(input.deviation(), 3), ty.dimension.si_unit());
     }
-    format!("{} %", significant(100.0 * (input.deviation / input.value).abs(), 2))
+    format!("{} %", significant(100.0 * (input.deviation() / input.value).abs(), 2))
 }
 
 /// Note on shares of correlated parameters.
@@ -90,7 +90,7 @@ pub(super) fn shares(found: &Uncertainty) -> Option<String> {
 /// Parameters that are not normal and make most of a result.
 /// Straight lines take the band of that result to be normal.
 pub(super) fn far_from_normal(network: &Network, found: &Uncertainty) -> Option<String> {
-    let shaped = |input: &Uncertain| input.distribution == Distribution::Rectangle;
+    let shaped = |input: &Uncertain| input.spread.distribution == Distribution::Rectangle;
     let rules = |i: usize| {
         let mut parts = found.answers.iter().flat_map(|answer| &answer.ranking);
         parts.any(|part| part.input == i && part.share.value >= RULES)

@@ -295,12 +295,12 @@ fn wide<'a>(network: &'a Network, found: &'a Uncertainty) -> impl Iterator<Item 
     let inputs = found.inputs.iter().filter(|input| {
         let parameter = &network.parameters()[input.parameter.index()];
         !parameter.ty.absolute
-            && input.deviation >= WIDE * input.value.abs()
+            && input.deviation() >= WIDE * input.value.abs()
             && input.value.abs() > 0.0
     });
     inputs.map(|input| {
         let name = &network.parameters()[input.parameter.index()].name;
-        let part = fixed(100.0 * input.deviation / input.value.abs(), 0);
+        let part = fixed(100.0 * input.deviation() / input.value.abs(), 0);
         format!(
             "`{name}` is known to {part} % only: bands of straight lines are rough, see \
              --uncertainty sobol"

@@ -33,7 +33,7 @@ fn describe(given: &str, quantity: &Quantity) -> Text {
     let si_unit = ty.dimension.si_unit();
     let unit = spaced(&si_unit);
     let deviation = quantity.deviation.map_or(String::new(), |spread| {
-        let behind = spread.sigma * spread.distribution.written();
+        let behind = quantity.sigma() * spread.distribution.written();
         format!(" ± {}", format_number(behind))
     });
     let distributed = quantity.deviation.map_or(String::new(), Spread::suffix);
@@ -50,8 +50,8 @@ fn describe(given: &str, quantity: &Quantity) -> Text {
     if !others.is_empty() {
         text.labelled("also        ", separated(others));
     }
-    if let Some(spread) = quantity.deviation.filter(|_| !distributed.is_empty()) {
-        let sigma = format_number(spread.sigma);
+    if !distributed.is_empty() {
+        let sigma = format_number(quantity.sigma());
         text.line(format!("deviation   one standard deviation is {sigma}{unit}"));
     }
     text.lines(note(given, ty).map(|note| format!("note        {note}")));

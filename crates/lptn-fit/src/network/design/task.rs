@@ -178,8 +178,9 @@ fn sought(netlist: &Netlist, (numbers, given): (&PlanNumbers, &Given)) -> Vec<Va
     let set = netlist.overrides();
     let varied = |&parameter: &ParameterId| {
         let own = netlist.network.parameters()[parameter.index()].deviation;
-        let spread = set.deviation(parameter).or(own).filter(|spread| spread.sigma > 0.0);
-        let prior = spread.map(|spread| spread.sigma);
+        let value = netlist.network.parameter_value(parameter);
+        let sigma = set.deviation(parameter).or(own).map(|spread| spread.sigma(value));
+        let prior = sigma.filter(|sigma| *sigma > 0.0);
         Varied { parameter, bounds: (f64::NEG_INFINITY, f64::INFINITY), prior }
     };
     ids.iter().map(varied).collect()

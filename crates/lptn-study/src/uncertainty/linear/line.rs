@@ -42,7 +42,7 @@ impl<'a> Line<'a> {
     /// Change of the temperature of a node in K with one standard deviation more of each parameter,
     /// at a time of the run.
     pub(super) fn effects(&self, node: NodeId, place: usize) -> Vec<f64> {
-        let effect = |input: &Uncertain| self.slopes(input, node)[place] * input.deviation;
+        let effect = |input: &Uncertain| self.slopes(input, node)[place] * input.deviation();
         self.inputs.iter().map(effect).collect()
     }
 
@@ -61,7 +61,7 @@ impl<'a> Line<'a> {
     /// maxima of the runs do if these are compared, for a maximum may be where something jumps.
     pub(super) fn effects_on_maximum(&self, node: NodeId) -> Vec<f64> {
         let of_runs =
-            |input: &Uncertain| Some(self.run.peak(input.parameter, node)? * input.deviation);
+            |input: &Uncertain| Some(self.run.peak(input.parameter, node)? * input.deviation());
         let all: Option<Vec<f64>> = self.inputs.iter().map(of_runs).collect();
         all.unwrap_or_else(|| self.effects(node, self.highest(node)))
     }
@@ -82,7 +82,7 @@ impl<'a> Line<'a> {
         let deviation = |&place: &usize| {
             let each = self.inputs.iter().zip(&slopes);
             let effects: Vec<f64> =
-                each.map(|(input, slopes)| slopes[place] * input.deviation).collect();
+                each.map(|(input, slopes)| slopes[place] * input.deviation()).collect();
             self.inputs.variance(&effects).max(0.0).sqrt()
         };
         let deviation: Vec<f64> = self.rows.iter().map(deviation).collect();

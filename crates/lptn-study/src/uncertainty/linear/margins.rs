@@ -26,7 +26,7 @@ pub(super) fn effects(
     }
     if line.run.gradient != Gradient::Exact {
         let of_runs = |limit: &LimitSeen, input: &Uncertain| {
-            line.run.margin(input.parameter, limit.limit).unwrap_or(f64::NAN) * input.deviation
+            line.run.margin(input.parameter, limit.limit).unwrap_or(f64::NAN) * input.deviation()
         };
         let all =
             |limit: &LimitSeen| line.inputs.iter().map(|input| of_runs(limit, input)).collect();
@@ -43,12 +43,12 @@ pub(super) fn effects(
         let row = own_side((run.solution.times(), margin), worst, ends);
         let of_moments = task.network.limits()[limit.limit.index()].is_of_moments();
         let one = |input: &Uncertain| {
-            let by = PART * input.deviation;
+            let by = PART * input.deviation();
             let slope = match of_moments {
                 false => None,
                 true => run.margin_slope_in_row((input.parameter, by), (limit.limit, row))?,
             };
-            slope.map_or_else(|| of_runs(task, (limit, input)), |s| Ok(s * input.deviation))
+            slope.map_or_else(|| of_runs(task, (limit, input)), |s| Ok(s * input.deviation()))
         };
         line.inputs.iter().map(one).collect()
     };
@@ -69,5 +69,5 @@ fn of_runs(
         let solution = run.solve(&system, &mut |_| Proceed::Continue)?;
         Ok(solution.limits()[limit.limit.index()].margin)
     };
-    Ok(0.5 * (moved(input.deviation)? - moved(-input.deviation)?))
+    Ok(0.5 * (moved(input.deviation())? - moved(-input.deviation())?))
 }
