@@ -10,7 +10,7 @@ use common::Folder;
 /// Every study that reads a `±`, of one body whose power is uncertain.
 const STUDIES: [&str; 8] = [
     "run body.toml --uncertainty linear --no-files",
-    "run body.toml --uncertainty sobol --no-files",
+    "run body.toml --uncertainty sobol --samples 128 --no-files",
     "compare body.toml other.toml --uncertainty",
     "size body.toml",
     "fit network body.toml both",

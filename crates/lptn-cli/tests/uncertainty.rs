@@ -139,6 +139,15 @@ fn nothing_uncertain_is_an_error_with_the_line_that_helps() {
     let ran = folder.run(&["run", "gearbox.toml", "--uncertainty", "linear"]).exits(2);
     let ran = ran.says("uncertainty::no_deviation");
     assert_eq!(folder.files(), ["gearbox.toml"]);
+    // a `±` of an element does not count, and is shown
+    let element = "format = 1\n[param]\nP = \"50 W\"\n[node]\nbox = { C = \"1 kJ/K\", T0 = \"20 degC\" }\n\
+        [boundary]\nair = { T = \"20 degC\" }\n[resistor]\nskin = { from = \"box\", to = \"air\", R = \
+        \"0.3 K/W ± 5 %\" }\n[source]\nheat = { into = \"box\", P = \"P\" }\n[run]\nstop = \"1 h\"\n";
+    Folder::with("element.toml", element)
+        .run(&["run", "element.toml", "--uncertainty", "linear"])
+        .exits(2)
+        .says("uncertainty::no_deviation")
+        .says("not in [param]: it is not counted");
     // the line is one of the file, and right there
     let (_, line) = ran.err.split_once("deviation: `").unwrap();
     let line = line.split('`').next().unwrap();

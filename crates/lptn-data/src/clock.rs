@@ -26,8 +26,14 @@ pub(crate) struct Clock {
     unit: Unit,
     zero: Option<i64>,
     last: Option<i64>,
+    /// The time between the last two rows.
+    step: Option<i64>,
+    /// True if it seems that the clock was set forward just before the last row.
+    forward: bool,
     days: i64,
 }
+
+const HOUR: i64 = 3600 * SECOND;
 
 impl Clock {
     /// The clock in a column; `None` if its first cell is not a date or clock time, or if the
@@ -55,6 +61,8 @@ impl Clock {
             unit: Unit { text: "s".to_owned(), scale: 1.0, offset: 0.0, ty: TIME },
             zero: None,
             last: None,
+            step: None,
+            forward: false,
             days: 0,
         };
         if let Some((at, whole)) = partner(head, first, (index, moment))? {
@@ -133,9 +141,34 @@ impl Clock {
                 at += DAY;
             }
         }
-        self.last = Some(at);
+        let step = self.last.map(|last| at - last);
+        self.forward = self.is_forward(moment, (at, step));
+        (self.last, self.step) = (Some(at), step);
         let zero = *self.zero.get_or_insert(at);
         Ok((at - zero) as f64 / SECOND as f64)
+    }
+
+    /// True if daylight-saving time seems to begin before this row: on a Sunday an hour of the night
+    /// is missing between rows that are at most an hour apart.
+    fn is_forward(&self, moment: Moment, (at, step): (i64, Option<i64>)) -> bool {
+        let Some((before, step)) = self.step.zip(step) else { return false };
+        let missing = (step - before - HOUR).abs() <= SECOND && (1..=HOUR).contains(&before);
+        let night = (0..3 * HOUR).contains(&(at - HOUR).rem_euclid(DAY));
+        let sunday = moment.date.is_some_and(|date| date.may_change(self.order));
+        missing && night && sunday && moment.offset.is_none()
+    }
+
+    /// The warning about the last row if the clock was set forward before it.
+    pub(crate) fn change(&self, head: &Head, place: impl FnOnce() -> Span) -> Option<Diagnostic> {
+        if !self.forward {
+            return None;
+        }
+        let message = "a local clock seems to be set forward here, as at the start of \
+            daylight-saving time: an hour is counted that did not pass";
+        let help = "log in UTC, or write the offset after each time, `03:00:00+02:00`; if the \
+            logger left out an hour, nothing is wrong";
+        let warning = Diagnostic::warning(head.codes().clock_change, message);
+        Some(warning.at(place(), "an hour more than between the rows above").help(help))
     }
 
     /// Nanoseconds from 1970, or from the first midnight of a clock without a date.

@@ -12,6 +12,7 @@ use crate::hints;
 use crate::limits::MOST_PROBLEMS;
 use crate::open::open;
 use crate::options::CsvOptions;
+use crate::record::spikes::spikes;
 use crate::text::CsvText;
 
 /// An example of a header.
@@ -50,6 +51,11 @@ impl PlacedNumbers {
             Places::Column(file, column) => file.place(index, *column),
         };
         place.unwrap_or_else(|| self.whole.clone())
+    }
+
+    /// The positions of numbers that are far outside of those around them, as in a record.
+    pub fn outliers(&self) -> Vec<usize> {
+        spikes(&self.numbers)
     }
 }
 
@@ -191,16 +197,29 @@ impl CsvFile {
         }
     }
 
-    /// The note about a file that is not in lptn's own form; `time` is the column of its times.
+    /// The note about a file that is not in lptn's own form; `time` is the column of its times. A
+    /// warning if a number has two readings, or a clock is set forward.
     pub fn note(&self, time: Option<&str>) -> Option<Diagnostic> {
         let ask = Asked::default();
         let column = time.map(|name| self.time_column(name, &ask));
-        let clock = column.and_then(Result::ok).and_then(|(_, clock)| clock);
-        let zero = clock.map(|clock| {
+        let mut clock = column.and_then(Result::ok).and_then(|(_, clock)| clock);
+        let zero = clock.as_ref().map(|clock| {
             let first = self.head.reader(&self.text.text).next().unwrap_or_default();
             format!("0 s at {}", clock.zero_words(&first, &self.options))
         });
-        self.head.note(&self.text, zero.into_iter().collect())
+        let note = self.head.note(&self.text, zero.into_iter().collect());
+        match clock.as_mut().and_then(|clock| self.change(clock)) {
+            Some(change) => Some(note.into_iter().fold(change, |all, note| all.note(note.message))),
+            None => note,
+        }
+    }
+
+    /// The warning about a clock that is set forward.
+    fn change(&self, clock: &mut Clock) -> Option<Diagnostic> {
+        self.visit(|cells| {
+            clock.time(|index| cells.get(index).unwrap_or_default().trim()).ok()?;
+            clock.change(&self.head, || self.row(cells).whole(self.head.file()))
+        })
     }
 
     /// The names of its columns, each with its place.

@@ -3,6 +3,7 @@
 
 use lptn_units::{Dimension, Type, Unit};
 
+use crate::ambiguous::Ambiguous;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::dialect::{Dialect, Maker, bracketless};
 use crate::file::{FileId, Span};
@@ -42,6 +43,8 @@ pub(crate) struct Head {
     pub(crate) columns: Vec<Header>,
     pub(crate) place: Span,
     pub(crate) dialect: Dialect,
+    /// A number that only the decimal sign of other columns decides.
+    pub(crate) doubtful: Option<Ambiguous>,
 }
 
 /// Ends of the names of columns of PicoLog 6.
@@ -119,7 +122,7 @@ impl Head {
     pub(crate) fn new(file: FileId, head: &Row, codes: &'static Codes) -> Self {
         let columns = (0..head.cells.len()).map(|i| head.header(file, i)).collect();
         let place = Span::new(file, head.place.clone());
-        Self { file, codes, columns, place, dialect: Dialect::PLAIN }
+        Self { file, codes, columns, place, dialect: Dialect::PLAIN, doubtful: None }
     }
 
     /// Gives columns without a unit those of a line of units.
@@ -184,11 +187,15 @@ impl Head {
         self.codes
     }
 
-    /// The note about a file that is not in lptn's own form; `more` says more of it.
+    /// The note about a file that is not in lptn's own form; `more` says more of it. A warning if
+    /// a number of it has two readings.
     pub(crate) fn note(&self, text: &CsvText, more: Vec<String>) -> Option<Diagnostic> {
         let mut words = self.dialect.told(text);
         words.extend(more);
         let message = format!("{} is read with {}", text.name, words.join(", "));
+        if let Some(doubtful) = &self.doubtful {
+            return Some(doubtful.doubt(self.codes).note(message));
+        }
         let note = Diagnostic {
             severity: Severity::Note,
             ..Diagnostic::error(self.codes.read_as, message)

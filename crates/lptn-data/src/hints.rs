@@ -21,6 +21,7 @@ pub(crate) struct Codes {
     pub(crate) undecided: &'static str,
     pub(crate) dates: &'static str,
     pub(crate) start: &'static str,
+    pub(crate) clock_change: &'static str,
     pub(crate) read_as: &'static str,
 }
 
@@ -41,6 +42,7 @@ pub(crate) const RECORD: &Codes = &Codes {
     undecided: "record::decimal",
     dates: "record::dates",
     start: "record::start",
+    clock_change: "record::clock_change",
     read_as: "record::read_as",
 };
 
@@ -61,6 +63,7 @@ pub(crate) const NETLIST: &Codes = &Codes {
     undecided: "netlist::csv_decimal",
     dates: "netlist::csv_dates",
     start: "netlist::csv_start",
+    clock_change: "netlist::csv_clock_change",
     read_as: "netlist::csv_read_as",
 };
 

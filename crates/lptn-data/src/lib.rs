@@ -12,8 +12,10 @@
 //!
 //! Diagnostics are in this crate because they refer to texts, and no lower crate has one.
 
+mod ambiguous;
 mod clock;
 mod csv_file;
+mod decimal;
 mod decode;
 mod diagnostic;
 mod dialect;

@@ -4,13 +4,13 @@
 use lptn_units::Unit;
 
 use crate::csv_file::{PlacedNumbers, Places};
+use crate::decimal::decimal;
 use crate::diagnostic::Diagnostic;
 use crate::dialect::Dialect;
 use crate::file::Span;
 use crate::head::{Asked, Head, Row, Wrong, row};
 use crate::hints;
 use crate::limits::MOST_PROBLEMS;
-use crate::open::decimal;
 use crate::options::CsvOptions;
 use crate::reader::Reader;
 use crate::text::CsvText;
@@ -48,8 +48,9 @@ impl CsvMatrix {
         let Some(first) = first else { return Err(vec![ask.also(empty(text))]) };
         let mut head = Head::new(text.file, &first, hints::NETLIST);
         head.dialect = dialect;
+        // all of its cells are one table, with one sign
         let sign = decimal(&head, text, options).map_err(|problem| vec![ask.also(problem)])?;
-        head.dialect.decimal = sign;
+        head.dialect.decimal = sign.0;
         let last = (0..first.cells.len()).rfind(|i| !first.cell(*i).is_empty()).unwrap_or(0);
         let mut cells = Cells { text, ask, head: &head, columns: last + 1, problems: Vec::new() };
         let [down, along, values] = units;

@@ -44,17 +44,32 @@ pub(crate) struct Moment {
 pub(crate) const SECOND: i64 = 1_000_000_000;
 pub(crate) const DAY: i64 = 86_400 * SECOND;
 
+/// Months in which clocks are set forward somewhere, on a Sunday.
+const CHANGES: [i64; 4] = [3, 4, 9, 10];
+
 impl Date {
+    /// Year, month and day.
+    fn parts(&self, order: DateOrder) -> [i64; 3] {
+        let [a, b, c] = self.numbers.map(i64::from);
+        match self.order.unwrap_or(order) {
+            DateOrder::DayFirst => [c, b, a],
+            DateOrder::MonthFirst => [c, a, b],
+            DateOrder::YearFirst => [a, b, c],
+        }
+    }
+
+    /// True for a Sunday on which a clock may have been set forward.
+    pub(crate) fn may_change(&self, order: DateOrder) -> bool {
+        // 1970-01-01 was a Thursday
+        let sunday = self.day(order).is_some_and(|day| day.rem_euclid(7) == 3);
+        sunday && CHANGES.contains(&self.parts(order)[1])
+    }
+
     /// Number of days from 1970-01-01 in the Gregorian calendar; `None` if there is no such date.
     ///
     /// Source: Hinnant, chrono-compatible low-level date algorithms, `days_from_civil`.
     pub(crate) fn day(&self, order: DateOrder) -> Option<i64> {
-        let [a, b, c] = self.numbers.map(i64::from);
-        let (year, month, day) = match self.order.unwrap_or(order) {
-            DateOrder::DayFirst => (c, b, a),
-            DateOrder::MonthFirst => (c, a, b),
-            DateOrder::YearFirst => (a, b, c),
-        };
+        let [year, month, day] = self.parts(order);
         let year = if self.short { 2000 + year } else { year };
         if !(1..=12).contains(&month) || !(1..=length(year, month)).contains(&day) {
             return None;

@@ -1,12 +1,11 @@
 //! The header of a file in any dialect.
 
+use crate::decimal::decimal;
 use crate::diagnostic::Diagnostic;
 use crate::dialect::{Dialect, detect, is_value, known};
-use crate::file::Span;
 use crate::form::plain_header;
 use crate::head::{Asked, Head, row};
 use crate::hints::Codes;
-use crate::numeral::{Decimal, Shows, shows};
 use crate::options::CsvOptions;
 use crate::reader::Reader;
 use crate::spelling::is_unit;
@@ -15,9 +14,6 @@ use crate::text::CsvText;
 /// Number of rows that show whether a file has lptn's own form. A logger's description of its
 /// channels takes as many lines.
 const PROBE: usize = 400;
-
-/// Number of rows in which decimal signs are counted.
-const COUNTED: usize = 200;
 
 /// The header of a text; `example` is an example of a header.
 pub(crate) fn open(
@@ -39,7 +35,7 @@ pub(crate) fn open(
             false => problem,
         })?,
     };
-    head.dialect.decimal = decimal(&head, text, options)?;
+    (head.dialect.decimal, head.doubtful) = decimal(&head, text, options)?;
     head.with_units(options)
 }
 
@@ -71,56 +67,6 @@ fn foreign_header(text: &CsvText, dialect: Dialect, codes: &'static Codes) -> He
     }
     head.dialect = dialect;
     head
-}
-
-/// The decimal sign: as given, else that of the numbers.
-pub(crate) fn decimal(
-    head: &Head,
-    text: &CsvText,
-    options: &CsvOptions,
-) -> Result<Decimal, Diagnostic> {
-    if let Some(decimal) = options.decimal.or(head.dialect.stated) {
-        return Ok(decimal);
-    }
-    let (mut points, mut commas, mut either) = (0_usize, 0_usize, None);
-    for (n, cells) in head.reader(&text.text).enumerate() {
-        if n >= COUNTED && points + commas > 0 {
-            break;
-        }
-        for (index, cell) in cells.iter().enumerate() {
-            match shows(cell.trim()) {
-                Shows::Nothing => {}
-                Shows::APoint | Shows::Only(Decimal::PointOnly) => points += 1,
-                Shows::Only(_) => commas += 1,
-                Shows::Either if either.is_none() => {
-                    let place = row(cells.clone(), &text.text).place(head.file(), index);
-                    either = Some((cell.trim().to_owned(), place));
-                }
-                Shows::Either => {}
-            }
-        }
-    }
-    if head.dialect.separator == b',' {
-        // quoted names such as "1,2" are not numbers with commas
-        return Ok(if points == 0 && commas > 0 { Decimal::Comma } else { Decimal::Point });
-    }
-    match (commas > points, points > 0, either) {
-        (true, ..) => Ok(Decimal::Comma),
-        (_, true, _) => Ok(Decimal::PointOnly),
-        (_, _, Some(first)) => Err(undecided(head, first)),
-        _ => Ok(Decimal::Point),
-    }
-}
-
-/// The error of signs that may be decimal ones or part thousands.
-fn undecided(head: &Head, (cell, place): (String, Span)) -> Diagnostic {
-    let [decimal, whole] = [cell.replace(',', "."), cell.replace([',', '.'], "")];
-    let message = format!("`{cell}` is {decimal} or {whole}: no number of the file shows which");
-    let (sign, other) = if cell.contains(',') { (',', '.') } else { ('.', ',') };
-    Diagnostic::error(head.codes().undecided, message).at(place, "").help(format!(
-        "write `decimal = \"{sign}\"` next to `csv` (a command: `--decimal {sign}`) for {decimal}, \
-         `decimal = \"{other}\"` for {whole}"
-    ))
 }
 
 impl Head {

@@ -284,6 +284,89 @@ fn a_comma_that_may_part_thousands_is_refused() {
     assert_eq!(of(&shown, options(None)).unwrap().columns[0].values, [1.234, 2.345]);
 }
 
+/// A body is neither liquid tungsten nor colder than nitrogen, whatever the header says.
+#[test]
+fn a_unit_that_makes_no_sense_is_a_warning() {
+    let codes = |unit: &str, scale: f64| {
+        let rows: String =
+            (0..30).map(|k| format!("{k},{}\n", scale * f64::from(20 + k))).collect();
+        let record = of(&format!("t [s],ring [{unit}]\n{rows}"), CsvOptions::default()).unwrap();
+        record.warnings.iter().map(|one| one.code).collect::<Vec<_>>()
+    };
+    for (unit, scale) in [("degC", 1000.0), ("degR", 1.0), ("K", 1.0)] {
+        assert_eq!(codes(unit, scale), ["record::which_unit"], "{unit}");
+    }
+    for (unit, scale) in [("degC", 40.0), ("degF", 1.0), ("degR", 20.0), ("degC", -4.0)] {
+        assert_eq!(codes(unit, scale), [""; 0], "{unit}");
+    }
+}
+
+/// Daylight-saving time begins on 2026-03-29 in Europe and on 2026-03-08 in North America, both
+/// Sundays. An hour that is missing on another day, by day, or with offsets is a gap.
+#[test]
+fn a_clock_that_is_set_forward_is_a_warning() {
+    let changes = |times: [&str; 4]| {
+        let rows = times.map(|time| format!("{time},20\n")).concat();
+        let record = of(&format!("time,ring [degC]\n{rows}"), CsvOptions::default()).unwrap();
+        record.warnings.iter().filter(|one| one.code == "record::clock_change").count()
+    };
+    let hours = |date: &str| {
+        changes(
+            ["00:00", "01:00", "03:00", "04:00"]
+                .map(|h| format!("{date} {h}"))
+                .each_ref()
+                .map(String::as_str),
+        )
+    };
+    assert_eq!(
+        ["2026-03-29", "2026-03-08", "08.03.2026", "2026-03-28", "2026-06-28"].map(hours),
+        [1, 1, 1, 0, 0]
+    );
+    let minutes = [
+        "2026-03-29 01:58:00",
+        "2026-03-29 01:59:00",
+        "2026-03-29 03:00:00",
+        "2026-03-29 03:01:00",
+    ];
+    assert_eq!(changes(minutes), 1);
+    let by_day = ["2026-03-29 10:00", "2026-03-29 11:00", "2026-03-29 13:00", "2026-03-29 14:00"];
+    assert_eq!(changes(by_day), 0);
+    let offsets = [
+        "2026-03-29 00:00+01:00",
+        "2026-03-29 01:00+01:00",
+        "2026-03-29 03:00+02:00",
+        "2026-03-29 04:00+02:00",
+    ];
+    assert_eq!(changes(offsets), 0);
+}
+
+/// A file with both signs, as joined by hand, beside one with thousands: `20,125` is 20.125 in the
+/// first. A number of the same column decides, and so does a statement.
+#[test]
+fn a_comma_that_other_columns_decide_is_a_warning() {
+    let doubts = |text: &str, csv| {
+        let record = of(text, csv).unwrap();
+        let mut all = record.warnings.iter().filter(|one| one.severity == Severity::Warning);
+        let codes: Vec<&str> = all.clone().map(|one| one.code).collect();
+        let message = all.find(|one| one.code == "record::decimal").map(|one| one.message.clone());
+        (codes, message.unwrap_or_default())
+    };
+    let joined = "t [s];ring [degC]\n0.0;20,125\n60.0;21,250\n120.0;22,375\n";
+    let (codes, message) = doubts(joined, CsvOptions::default());
+    assert_eq!(codes, ["record::which_unit", "record::decimal"]);
+    assert!(message.contains("`20,125` is read as 20125"), "{message}");
+    let points = "t [s];n [rpm]\n0,5;1.500\n60,5;1.750\n120,5;2.000\n";
+    let (codes, message) = doubts(points, CsvOptions::default());
+    assert_eq!(codes, ["record::decimal"]);
+    assert!(message.contains("`1.500` is read as 1500"), "{message}");
+    let stated = CsvOptions { decimal: Some(Decimal::Comma), ..CsvOptions::default() };
+    assert!(doubts(points, stated).0.is_empty());
+    for more in ["500", "1.500,5"] {
+        let shown = format!("{points}180,5;{more}\n");
+        assert!(doubts(&shown, CsvOptions::default()).0.is_empty(), "{more}");
+    }
+}
+
 #[test]
 fn one_row_is_enough() {
     for text in ["Zeit [s];Ring [degC]\n0,5;20,5\n", "Ofen\n\nZeit [s]\tRing [degC]\n0,5\t20,5\n"] {

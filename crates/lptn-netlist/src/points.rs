@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use lptn_data::{CsvFile, Diagnostic, PlacedNumbers, Places, fit};
-use lptn_units::{Expression, TableError, Type, Unit, parse_quantity, written_quantity};
+use lptn_units::{
+    Expression, TableError, Type, Unit, format_short, parse_quantity, written_quantity,
+};
 
 use crate::csv_form;
 use crate::fields::{Fields, wrong_shape};
@@ -20,6 +22,26 @@ pub(crate) struct Axis<'k> {
     pub(crate) column: &'k str,
     /// Its type, if known.
     pub(crate) ty: Option<Type>,
+}
+
+/// The warning about a temperature over time that is far from its neighbours.
+fn outlying(fields: &Fields<'_>, points: &PlacedNumbers) -> Option<Diagnostic> {
+    let unit = points.unit.as_ref().filter(|_| points.ty.absolute)?;
+    let outliers = points.outliers();
+    let first = *outliers.first()?;
+    let near = (first + 1..points.numbers.len()).find(|i| !outliers.contains(i));
+    let near = near.or_else(|| (0..first).next_back())?;
+    let shown =
+        |i: usize| format!("{} {}", format_short(unit.from_si(points.numbers[i])), unit.text);
+    let more = match outliers.len() {
+        1 => String::new(),
+        all => format!("; {} more are as far off", all - 1),
+    };
+    let (owner, value, next) = (fields.owner.words(), shown(first), shown(near));
+    let message = format!("{owner} reads {value}, but {next} next to it{more}");
+    let help = "a broken wire, or a digit lost? correct the cell, or remove its row";
+    let warning = Diagnostic::warning("netlist::csv_outlier", message);
+    Some(warning.at(points.place(first), "").help(help))
 }
 
 impl<'a> Elaboration<'a> {
@@ -44,9 +66,12 @@ impl<'a> Elaboration<'a> {
         let names = [x, y].map(|axis| self.column_name(fields, axis.column));
         let file = file?;
         self.problems.extend(file.note(names[0].map(|(name, _)| name)));
+        let timed = x.column == "time";
         let [x, y] = [(x, names[0]), (y, names[1])]
             .map(|(axis, name)| self.column(fields, &file, axis, name));
-        Some([x?, y?])
+        let (x, y) = (x?, y?);
+        self.problems.extend(outlying(fields, &y).filter(|_| timed));
+        Some([x, y])
     }
 
     /// The file that `csv` names.

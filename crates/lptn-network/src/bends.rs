@@ -21,11 +21,18 @@ pub struct Bends {
     programs: Vec<Program>,
     /// For each of them the values at which a result bends, rising.
     levels: Vec<Vec<f64>>,
+    /// The slots that move in the programs.
+    read: Vec<u32>,
+    /// For each of them the change that rounding of these slots makes.
+    roundings: Vec<f64>,
     /// Results that are not straight in a temperature or heat flow.
     curved: Vec<Arc<Program>>,
     /// The slots that move in these.
     moved: Vec<u32>,
 }
+
+/// Share of a number by which a run may round it, with the polynomials between its steps.
+const ROUNDED: f64 = 32.0 * f64::EPSILON;
 
 impl Network {
     /// The bends of the results of these items, limits and reports. Times at which they bend by the
@@ -50,6 +57,29 @@ impl Bends {
     /// The values at which results bend, rising, one list for each quantity that is followed.
     pub fn levels(&self) -> &[Vec<f64>] {
         &self.levels
+    }
+
+    /// For each followed quantity the change that is rounding, in SI units; empty before
+    /// [`Bends::stand`].
+    pub fn roundings(&self) -> &[f64] {
+        &self.roundings
+    }
+
+    /// Takes the roundings from the state of `scope`: each temperature, heat flow, signal and time
+    /// is off by [`ROUNDED`] of itself.
+    pub fn stand(&mut self, scope: &mut Evaluation) {
+        let slots = scope.plain().0;
+        let off = |slot: u32| {
+            let value = slots[slot as usize];
+            let by = ROUNDED * value.abs();
+            Some(Taylor::between(&[[value - by, value + by]]))
+        };
+        let known = |slot: u32| self.read.binary_search(&slot).ok().and_then(|_| off(slot));
+        let width = |program: &Program| {
+            let range = program.enclose_along(&known, slots).range();
+            range.map_or(0.0, |[low, high]| high - low)
+        };
+        self.roundings = self.programs.iter().map(width).collect();
     }
 
     /// Number of slots that move in nonlinear results.
@@ -94,15 +124,11 @@ impl Bends {
 
     fn add_curved(&mut self, network: &Network, program: &Arc<Program>) {
         let holds = |slot: u32| network.parts.layout.holds(slot);
-        let is_result = |slot: &u32| {
-            matches!(holds(*slot), Holds::Temperature(_) | Holds::Heat(_) | Holds::Grid(_))
-        };
+        let is_result = |slot: &u32| is_result(holds(*slot));
         let slots = program.slots();
         let curves = |slot: &u32| is_result(slot) && program.degree_in(*slot) > Degree::Affine;
         if slots.iter().any(curves) {
-            let moves = |slot: &u32| {
-                is_result(slot) || matches!(holds(*slot), Holds::Time | Holds::Signal(_))
-            };
+            let moves = |slot: &u32| moves(holds(*slot));
             self.moved.extend(slots.iter().copied().filter(moves));
             self.moved.sort_unstable();
             self.moved.dedup();
@@ -118,6 +144,10 @@ impl Bends {
         let form = program.fingerprint();
         let known = self.programs.iter().position(|other| other.fingerprint() == form);
         let place = known.unwrap_or_else(|| {
+            let moves = |slot: &u32| moves(network.parts.layout.holds(*slot));
+            self.read.extend(program.slot_list().iter().copied().filter(moves));
+            self.read.sort_unstable();
+            self.read.dedup();
             self.programs.push(program.clone());
             self.levels.push(Vec::new());
             self.levels.len() - 1
@@ -127,4 +157,12 @@ impl Bends {
         all.sort_by(f64::total_cmp);
         all.dedup();
     }
+}
+
+fn is_result(held: Holds) -> bool {
+    matches!(held, Holds::Temperature(_) | Holds::Heat(_) | Holds::Grid(_))
+}
+
+fn moves(held: Holds) -> bool {
+    is_result(held) || matches!(held, Holds::Time | Holds::Signal(_))
 }

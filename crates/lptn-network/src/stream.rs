@@ -2,13 +2,16 @@
 
 use crate::id::{ConductorId, End, Item, NodeId};
 use crate::input_error::InputError;
-use crate::law::{At, ConductorFlow, Received};
+use crate::law::{At, ConductorFlow};
 use crate::network::Network;
 use crate::network::flow::place;
 use crate::parts::state_capacity::StateCapacity;
 
 /// Temperature at which capacity rates are compared, in K.
 const REFERENCE: f64 = 298.15;
+
+/// Difference of the ends at which a capacity rate is found, in K: below it a fluid is constant.
+const STEP: f64 = 0.01;
 
 /// The share of a capacity rate by which the specific heat of a fluid may vary between the streams
 /// into a node.
@@ -159,12 +162,11 @@ impl Network {
         for of in self.state_capacities() {
             passing[of.node.index()].growth = self.growth(of, scope, temperatures)?;
         }
-        let mut slopes = Vec::new();
         for (id, conductor) in self.conductor_ids().zip(self.conductors()) {
             if !conductor.law.is_stream() {
                 continue;
             }
-            let rate = self.rate(id, scope, temperatures, &mut slopes)?;
+            let rate = self.rate(id, scope, temperatures)?;
             let (up, down) = match rate < 0.0 {
                 true => (conductor.to, conductor.from),
                 false => (conductor.from, conductor.to),
@@ -198,19 +200,27 @@ impl Network {
         Ok(growth)
     }
 
-    /// Capacity rate of a stream in W/K, positive from `from` to `to`.
+    /// Capacity rate of a stream in W/K, positive from `from` to `to`: its heat per K between the
+    /// ends. Its flow stays that of these temperatures, which it may depend on.
     fn rate(
         &self,
         id: ConductorId,
         scope: &mut crate::Evaluation,
         temperatures: &[f64],
-        slopes: &mut Vec<Received>,
     ) -> Result<f64, InputError> {
         if let ConductorFlow::Stream(rate) = self.flow(id) {
             return Ok(rate);
         }
-        self.exchange_slopes(id, scope, temperatures, slopes)?;
-        // heat to `to` per K of `from`, less heat to `from` per K of `to`
-        Ok(slopes[0][1] - slopes[1][0])
+        let (conductor, along) = (&self.conductors()[id.index()], self.along(id));
+        let dependence = self.parts.dependence(id);
+        let at = |k: usize| temperatures[dependence.vertices[k] as usize];
+        let received = {
+            let (slots, stack) = scope.plain();
+            place(slots, &dependence, &at);
+            self.received(conductor, At::path((slots, stack), along), at(0) + STEP, at(0))
+        };
+        let [from, to] =
+            received.map_err(|failed| self.failed(Item::Conductor(id), failed, scope))?;
+        Ok((from + to) / STEP)
     }
 }

@@ -3,6 +3,8 @@
 //! A step is cut where a result bends. Limits, windows and functionals of sweeps use one resolution
 //! (`resolve.rs`). `Network::bends` gives the quantities at whose roots an expression bends.
 
+use lptn_network::Bends;
+
 use crate::bracket::Bracket;
 use crate::interval::{At, Interval, POINTS};
 use crate::stop_reason::StopReason;
@@ -28,6 +30,15 @@ pub(crate) struct Levels<'a> {
     pub(crate) count: usize,
     /// For each of the others its levels, rising.
     pub(crate) of: &'a [Vec<f64>],
+    /// For each of them the change that is rounding; 0 if it is not given.
+    pub(crate) roundings: &'a [f64],
+}
+
+impl<'a> Levels<'a> {
+    /// Those of `bends`.
+    pub(crate) fn new(count: usize, bends: &'a Bends) -> Self {
+        Self { count, of: bends.levels(), roundings: bends.roundings() }
+    }
 }
 
 /// A time with the values of all curves there.
@@ -42,7 +53,8 @@ pub(crate) fn cuts(
 ) -> Result<Vec<End>, StopReason> {
     let mut found = Vec::new();
     for (i, levels_of) in levels.of.iter().enumerate() {
-        one(interval, (levels.count + i, levels_of), at, &mut found)?;
+        let rounding = levels.roundings.get(i).copied().unwrap_or(0.0);
+        one(interval, (levels.count + i, levels_of), (at, rounding), &mut found)?;
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     let ends = (interval.from, interval.to);
@@ -56,7 +68,7 @@ pub(crate) fn cuts(
 fn one(
     interval: &Interval,
     (column, levels): (usize, &[f64]),
-    at: &mut At<'_>,
+    (at, rounding): (&mut At<'_>, f64),
     found: &mut Vec<End>,
 ) -> Result<(), StopReason> {
     let values = interval.of(column);
@@ -66,7 +78,11 @@ fn one(
     }
     let spread = high - low;
     // no curve that its points resolve leaves their range by as much again
-    let within = |level: &f64| (low - spread..=high + spread).contains(level);
+    let within = |level: &f64| {
+        let reached = (low - spread..=high + spread).contains(level);
+        // noise around a level would pass it without end, and bends nothing
+        reached && (high - level).max(level - low) > rounding
+    };
     let near: Vec<f64> = levels.iter().copied().filter(within).collect();
     if near.is_empty() {
         return Ok(());
@@ -76,7 +92,7 @@ fn one(
         look_at_tops((column, &near, sign), at, &mut points)?;
     }
     for level in near {
-        let above = sides(&points, level, AT_THE_LEVEL * spread);
+        let above = sides(&points, level, rounding.max(AT_THE_LEVEL * spread));
         for k in (1..points.len()).filter(|k| above[k - 1] != above[*k]) {
             let gap = [points[k - 1], points[k]];
             let guess = guess(interval, (column, level), gap);

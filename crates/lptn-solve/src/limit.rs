@@ -82,6 +82,7 @@ impl<'a> LimitWatch<'a> {
     /// Begins a segment: earlier points do not belong to a curve that goes on.
     pub(crate) fn enter(&mut self, work: &mut Workspace, at: (f64, f64)) -> Result<(), InputError> {
         let margins = self.values(work, at)?;
+        self.look.stand(&mut self.reading.scope);
         for ((seen, first), &margin) in self.look.seen.iter_mut().zip(&mut self.first).zip(&margins)
         {
             first.get_or_insert((at.0, margin));

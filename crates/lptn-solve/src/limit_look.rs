@@ -1,6 +1,6 @@
 //! Limits over a step: their least margins, and when they are first broken.
 
-use lptn_network::Bends;
+use lptn_network::{Bends, Evaluation};
 
 use crate::cuts::{Levels, passing, points};
 use crate::hidden::Hidden;
@@ -38,9 +38,14 @@ impl LimitLook {
         Self { bends, seen, reaches, ..Self::default() }
     }
 
+    /// A segment begins at the state of `scope`.
+    pub(crate) fn stand(&mut self, scope: &mut Evaluation) {
+        self.bends.stand(scope);
+    }
+
     /// Evaluates a step.
     pub(crate) fn step(&mut self, step: Interval, at: &mut At<'_>) -> Result<(), StopReason> {
-        let levels = Levels { count: self.seen.len(), of: self.bends.levels() };
+        let levels = Levels::new(self.seen.len(), &self.bends);
         let mut hidden = Hidden::new((&self.bends, &self.slots), self.seen.len());
         let mut judge = |interval: &Interval| Judged {
             wanting: self.wanting(interval),

@@ -93,7 +93,7 @@ impl Quadrature {
             wanting: wanting(kinds, &interval.integrals(count), &mut sizes),
             hides: hidden.wanting(interval),
         };
-        let levels = Levels { count, of: along.0.levels() };
+        let levels = Levels::new(count, along.0);
         let parts = resolve(whole, levels, self.halvings.0, (at, &mut judge))?;
         self.halvings.after(parts.iter().all(|part| part.told));
         for Resolved { interval, told, open } in &parts {

@@ -124,7 +124,7 @@ mod tests {
         let values = [at(ends.0).unwrap(), at(ends.1).unwrap()];
         let whole = Interval::new(ends, values, &mut at).unwrap();
         let of = [levels.to_vec()];
-        let levels = Levels { count: 0, of: &of };
+        let levels = Levels { count: 0, of: &of, roundings: &[] };
         let parts = resolve(whole, levels, halvings, (&mut at, &mut judge)).unwrap();
         let last = parts.windows(2).all(|pair| pair[0].interval.to == pair[1].interval.from);
         assert!(

@@ -1,7 +1,8 @@
 //! States whose rate reads nothing that a steady state determines: an integral at its bound, a
 //! state of charge at rest.
 //!
-//! Such a state stays where it is if its rate is zero; otherwise it changes without end.
+//! Such a state stays where it is if its rate is zero; otherwise it changes without end. So does one
+//! that nothing reads, such as the energy lost so far.
 
 use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
 use lptn_integrate::Pattern;
@@ -74,6 +75,31 @@ pub(crate) fn still(
         }
     }
     Ok(())
+}
+
+/// A change of a state by its size, in K.
+const SIZE: f64 = 100.0;
+
+/// True for a state that no rate and no heat reads, its own rate included: an integral of something
+/// else. The others can be solved without it.
+pub(crate) fn is_unread(
+    system: &ThermalSystem,
+    work: &mut Workspace,
+    unknowns: &[f64],
+    unknown: usize,
+) -> Result<bool, SteadyError> {
+    let state = system.unknowns().get(unknown).and_then(|node| system.network().state_at(*node));
+    if state.is_none_or(|state| state.balanced) {
+        return Ok(false);
+    }
+    let mut flow = |by: f64| -> Result<Vec<f64>, SteadyError> {
+        let (mut moved, mut flow) = (unknowns.to_vec(), vec![0.0; unknowns.len()]);
+        moved[unknown] += by;
+        system.flow(work, &moved, &mut flow)?;
+        Ok(flow)
+    };
+    let here = flow(0.0)?;
+    Ok(flow(SIZE)? == here && flow(-SIZE)? == here)
 }
 
 /// True for the state that counts the fluid of a pipe: it goes on while the temperatures rest.

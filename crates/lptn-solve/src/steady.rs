@@ -350,11 +350,28 @@ fn balanced(
 ) -> Result<Vec<f64>, SteadyError> {
     let mut temperatures = from.map_or_else(|| start(system, work), <[f64]>::to_vec);
     if islands.is_empty() {
-        let free = standing::free(system, work, &temperatures)?;
+        let mut free = standing::free(system, work, &temperatures)?;
         let unsolved = |error| SteadyError::Unsolved(Unsolved::new(system, error));
-        let mut newton = Newton::new(system, free.clone()).map_err(unsolved)?;
-        stable(&mut newton, work, &mut temperatures).map_err(unsolved)?;
+        let (start, mut unread) = (temperatures.clone(), None);
+        loop {
+            let mut newton = Newton::new(system, free.clone()).map_err(unsolved)?;
+            match stable(&mut newton, work, &mut temperatures) {
+                Ok(()) => break,
+                Err(NewtonError::Singular { unknown })
+                    if standing::is_unread(system, work, &start, unknown)? =>
+                {
+                    free.retain(|other| *other != unknown);
+                    temperatures.copy_from_slice(&start);
+                    unread.get_or_insert(NewtonError::Singular { unknown });
+                }
+                Err(error) => return Err(unsolved(error)),
+            }
+        }
         standing::still(system, work, &temperatures, &free)?;
+        // it rests, but at a value that the way there decides
+        if let Some(error) = unread {
+            return Err(unsolved(error));
+        }
     } else {
         adiabatic::solve(system, work, islands, &mut temperatures)?;
     }

@@ -24,6 +24,8 @@ pub(crate) struct Tracked {
     bends: Bends,
     /// Values that are constant during the evaluation.
     slots: Vec<f64>,
+    /// True at the start of a segment.
+    jumped: bool,
     reached: f64,
     sums: Quadrature,
     min: Vec<(f64, f64)>,
@@ -49,6 +51,7 @@ impl Tracked {
         Self {
             bends: network.bends(results),
             slots: Vec::new(),
+            jumped: true,
             reached: window.from,
             sums: Quadrature::new(kinds(&window.of, network)),
             window,
@@ -63,11 +66,15 @@ impl Tracked {
     /// Takes these constant values from the state of `scope`.
     pub(crate) fn stand(&mut self, scope: &mut Evaluation) {
         self.slots = self.bends.slots(scope);
+        if std::mem::take(&mut self.jumped) {
+            self.bends.stand(scope);
+        }
     }
 
     /// The columns may jump here.
     pub(crate) fn jump(&mut self) {
         self.sums.jump();
+        self.jumped = true;
     }
 
     /// Takes in the part of a step that lies inside.

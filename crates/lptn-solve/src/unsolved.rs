@@ -38,11 +38,21 @@ pub enum Unsolved {
                  `{reader}` remains saturated"
             ),
         };
-    /// Nothing determines a state that has a balance: the balance does not change with it.
-    UndeterminedState { state: String } = "solve::undetermined_state",
-        format!("nothing determines `{state}`: its balance does not change with it"),
-        help "a junction needs an open branch whose flow depends on its pressure, to a junction with \
-            a known pressure; the `balance` of a [state] has to fall while the state rises";
+    /// Nothing determines a state: its balance does not change with it, or no rate reads it.
+    UndeterminedState { state: String, balanced: bool } = "solve::undetermined_state",
+        match balanced {
+            true => format!("nothing determines `{state}`: its balance does not change with it"),
+            false => format!(
+                "nothing determines `{state}`: no rate reads it, so its value depends on the way to \
+                 the steady state"
+            ),
+        },
+        help match balanced {
+            true => "a junction needs an open branch whose flow depends on its pressure, to a \
+                junction with a known pressure; the `balance` of a [state] has to fall while the \
+                state rises",
+            false => "`lptn run` gives its value over time",
+        };
     /// No value of a state was found at which its balance is zero: by how much it still moved, in
     /// its unit.
     StateNotFound { state: String, change: f64, unit: String } = "solve::state_not_found",
@@ -153,7 +163,9 @@ impl Unsolved {
         match error {
             NewtonError::Input(error) => Self::Input(Box::new(error)),
             NewtonError::Singular { unknown } if is_state(unknown) => {
-                Self::UndeterminedState { state: name(unknown) }
+                let state = system.network().state_at(system.unknowns()[unknown]);
+                let balanced = state.is_none_or(|state| state.balanced);
+                Self::UndeterminedState { state: name(unknown), balanced }
             }
             NewtonError::Singular { unknown } => {
                 Self::Undetermined { node: name(unknown), reader: reader(system, unknown) }
@@ -179,7 +191,7 @@ impl Unsolved {
             Self::Input(error) => &error.name,
             Self::Factorization(_) | Self::Restless { .. } => "",
             Self::Undetermined { node, .. }
-            | Self::UndeterminedState { state: node }
+            | Self::UndeterminedState { state: node, .. }
             | Self::StateNotFound { state: node, .. }
             | Self::Sampled { state: node }
             | Self::Unstable { node, .. }

@@ -30,6 +30,7 @@ mod flow_networks;
 mod folds;
 mod guard;
 mod guard_kinds;
+mod integrals;
 mod levels;
 mod limits;
 mod lumping;

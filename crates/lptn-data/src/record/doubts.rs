@@ -8,6 +8,12 @@ use lptn_units::format_short as short;
 
 const ZERO_CELSIUS: f64 = 273.15;
 
+/// Most temperatures of a record are below this, in K: tungsten melts at 3695 K.
+const HOTTEST: f64 = 3700.0;
+
+/// Nitrogen boils at 77.4 K.
+const COLDEST: f64 = 77.0;
+
 /// The fewest rows, and the smallest share of the record, for which an extreme value has to last.
 const LEAST_RUN: usize = 8;
 const LEAST_SHARE: f64 = 0.01;
@@ -182,7 +188,7 @@ fn changed_unit(a: f64, b: f64) -> Option<(&'static str, &'static str)> {
     .find_map(|(is, units)| is.then_some(units))
 }
 
-/// Kelvin that read like degrees Celsius, or the reverse.
+/// Kelvin that read like degrees Celsius, or the reverse; a column that is too hot for any body.
 fn implausible(column: &RecordColumn) -> Option<Diagnostic> {
     if !column.unit.ty.absolute {
         return None;
@@ -195,6 +201,22 @@ fn implausible(column: &RecordColumn) -> Option<Diagnostic> {
     let (low, high) =
         written.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
     let unit = column.unit.text.as_str();
+    let beyond = |what: &str| {
+        let (low, high) = (short(low), short(high));
+        let message =
+            format!("column `{}` goes from {low} to {high} {unit}, which {what}", column.name);
+        Diagnostic::warning("record::which_unit", message)
+            .at(column.span.clone(), "")
+            .help("correct the unit of the column, or its decimal signs")
+    };
+    let hot = column.values.iter().filter(|value| **value > HOTTEST).count();
+    if 2 * hot > column.values.len() - column.gaps {
+        return Some(beyond("is not plausible"));
+    }
+    // lower temperatures are written in K or degC
+    if !matches!(unit, "K" | "degC" | "°C") && column.unit.to_si(high) < COLDEST {
+        return Some(beyond("is colder than boiling nitrogen"));
+    }
     let other = match unit {
         "K" if high < 150.0 => "degC",
         "degC" | "°C" if low > 260.0 && high < 500.0 && high - low < 120.0 => "K",

@@ -25,7 +25,7 @@ mod doubts;
 mod lines;
 mod rows;
 mod sheet;
-mod spikes;
+pub(crate) mod spikes;
 mod times;
 
 pub use lines::{RecordLine, RecordLines, RecordRow};

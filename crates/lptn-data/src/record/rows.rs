@@ -119,7 +119,10 @@ impl<'t> Work<'t> {
                 return;
             }
         };
-        let accepted = self.order.accepts(time, row.whole(self.record.file));
+        let place = row.whole(self.record.file);
+        let change = self.clock.as_ref().and_then(|c| c.change(&self.cells.head, || place.clone()));
+        let accepted = self.order.accepts(time, place);
+        self.record.warnings.extend(change.filter(|_| accepted));
         if accepted && (self.window.0..=self.window.1).contains(&time) {
             self.record.time.push(time);
             self.record.bytes.push(at);

@@ -47,7 +47,30 @@ fn scattered(values: &[f64]) -> Vec<usize> {
     let least = (SCATTER * scatter).max(STEPS * step(values));
     // a cheap test first: most values need no sorting of their neighbours
     let is_off = |i: &usize| off(values, *i, 0.0) > least;
-    (0..values.len()).filter(is_off).filter(|&i| off(values, i, SPREAD) > least).collect()
+    let inside = (0..values.len()).filter(is_off).filter(|&i| off(values, i, SPREAD) > least);
+    let mut found: Vec<usize> = inside.collect();
+    let turned: Vec<f64> = values.iter().rev().copied().collect();
+    let last = values.len() - leading(&turned, least);
+    found.extend((0..leading(values, least)).chain(last..values.len()));
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+/// The most outliers in a row, of which more are a part of the time history.
+const GROUP: usize = 3;
+
+/// The number of outliers that a record begins with, as an instrument that starts out of its range.
+fn leading(values: &[f64], least: f64) -> usize {
+    let begins = |count: &usize| {
+        let (group, behind) = (&values[..*count], &values[*count..*count + SIDE]);
+        let middle = median(behind.to_vec());
+        let away = |value: &f64| (value - middle).abs();
+        let scatter = 1.4826 * median(behind.iter().map(away).collect());
+        let nearest = group.iter().map(away).fold(f64::INFINITY, f64::min);
+        nearest > least.max(SPREAD * scatter) && away(&behind[0]) <= ALONE * nearest
+    };
+    (2..=GROUP).rev().find(begins).unwrap_or(0)
 }
 
 /// Distance of a value beyond those before and after it; 0 if it is within `times` their scatter.
@@ -105,9 +128,18 @@ mod tests {
 
     #[test]
     fn what_no_course_explains_is_found_wherever_it_stands() {
-        for places in
-            [vec![0], vec![299], vec![120], vec![40, 41], vec![17, 18, 19, 20], vec![3, 200]]
-        {
+        for places in [
+            vec![0],
+            vec![0, 1],
+            vec![0, 1, 2],
+            vec![298, 299],
+            vec![297, 298, 299],
+            vec![299],
+            vec![120],
+            vec![40, 41],
+            vec![17, 18, 19, 20],
+            vec![3, 200],
+        ] {
             let mut values = rise();
             places.iter().for_each(|&i| values[i] = 9999.0);
             assert_eq!(spikes(&values), places);

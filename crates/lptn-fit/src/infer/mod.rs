@@ -18,6 +18,7 @@
 //! networks differences are exact.
 
 mod answer;
+mod begin;
 mod carried;
 mod determined;
 mod discrete;

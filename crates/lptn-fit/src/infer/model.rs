@@ -134,22 +134,6 @@ impl Model {
         &self.nodes[k][node]
     }
 
-    /// The prior before any reading, with these noises.
-    pub(crate) fn begin(&self, noises: &[Noise]) -> Gaussian {
-        self.started(self.prior.clone(), noises)
-    }
-
-    fn started(&self, mut prior: Gaussian, noises: &[Noise]) -> Gaussian {
-        let side = prior.mean.len() + 1;
-        for column in &self.states.drifts {
-            let place = self.states.drift(*column);
-            place
-                .into_iter()
-                .for_each(|p| prior.covariance[p * side] = noises[*column].drift.powi(2));
-        }
-        prior
-    }
-
     /// Advances a filter to a moment and takes its readings in.
     pub(crate) fn advance(
         &self,
@@ -243,7 +227,7 @@ impl Model {
 
     /// The estimate of the last moment.
     pub(crate) fn filtered(&self, strength: &Strength) -> Filter {
-        let mut filter = Filter::new(self.begin(&strength.noises));
+        let mut filter = Filter::new(self.sloped(self.begin(&strength.noises), strength));
         let mut walks = Walks { model: self, strength, last: None };
         for (k, readings) in self.readings.iter().enumerate() {
             if k > 0 {
@@ -258,14 +242,14 @@ impl Model {
 
     /// The estimates of every moment, and the surprise of each reading.
     pub(crate) fn smoothed(&self, strength: &Strength) -> (Smoother, Surprises) {
-        self.smoothed_from(self.begin(&strength.noises), strength)
+        self.smoothed_from(self.sloped(self.begin(&strength.noises), strength), strength)
     }
 
     /// The estimates of every moment, with the unknowns of the prior outside the covariance.
     pub(crate) fn augmented(&self, strength: &Strength) -> Augmented {
         let Gaussian { mean, covariance } = &self.prior;
         let known = Gaussian { mean: mean.clone(), covariance: vec![0.0; covariance.len()] };
-        let known = self.started(known, &strength.noises);
+        let known = self.sloped(self.started(known, &strength.noises), strength);
         let roots = self.roots.iter().map(|root| root.of.as_slice());
         Augmented::new(self.smoothed_from(known, strength).0, roots)
     }

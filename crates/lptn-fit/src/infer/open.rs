@@ -3,7 +3,7 @@
 //! The strength of a random walk has no single value. At the most likely strength, a constant power
 //! would seem known to be constant. Bands are those of a mixture over both strengths, with even
 //! steps of their logarithms. The mixture ranges from a strength without effect to one whose
-//! likelihood is negligible.
+//! likelihood is negligible. Several time histories are mixed one after the other.
 
 use crate::infer::jumps::elsewhere;
 use crate::infer::model::Model;
@@ -30,18 +30,19 @@ const FACTOR: f64 = 2.0;
 /// A walk is negligible if it changes the logarithm of the likelihood by less.
 const NOT_FELT: f64 = 0.05;
 
-/// The possible strengths, with their shares.
-fn possible(task: &InferTask, model: &Model, most: &Strength) -> Vec<(Strength, f64)> {
-    let alone = vec![(most.clone(), 1.0)];
-    let open = open_walks(task);
-    let [course, slope] = open.as_slice() else { return alone };
+/// The possible strengths of one time history, with their shares; those of the others are at their
+/// most likely values. `places` are those of its walk and of the walk of its slope.
+fn possible(
+    (task, model, most): (&InferTask, &Model, &Strength),
+    [course, slope]: [usize; 2],
+) -> Vec<(Strength, f64)> {
     let axis = Axis { model, most, guess: Strength::guess(task, model) };
     let greatest = model.log_likelihood(most);
-    let slopes = axis.values(*slope);
-    let points = axis.values(*course).into_iter().flat_map(|a| slopes.iter().map(move |b| (a, *b)));
+    let slopes = axis.values(slope);
+    let points = axis.values(course).into_iter().flat_map(|a| slopes.iter().map(move |b| (a, *b)));
     let point = |(a, b): (f64, f64)| {
         let mut there = most.clone();
-        (there.intensities[*course], there.intensities[*slope]) = (a, b);
+        (there.intensities[course], there.intensities[slope]) = (a, b);
         let share = (model.log_likelihood(&there) - greatest).exp();
         (there, if share.is_finite() { share } else { 0.0 })
     };
@@ -49,7 +50,7 @@ fn possible(task: &InferTask, model: &Model, most: &Strength) -> Vec<(Strength, 
     let sum: f64 = points.iter().map(|(_, share)| share).sum();
     let counts = points.into_iter().map(|(strength, share)| (strength, share / sum));
     let counts: Vec<(Strength, f64)> = counts.filter(|(_, share)| *share > LEAST_SHARE).collect();
-    if counts.is_empty() { alone } else { counts }
+    if counts.is_empty() { vec![(most.clone(), 1.0)] } else { counts }
 }
 
 /// One intensity, with the others at their most likely values.
@@ -89,27 +90,33 @@ impl Axis<'_> {
 }
 
 /// Means and standard deviations of the values that `asked` returns.
+///
+/// The strengths of one time history are mixed as a whole. Each of several widens the values of the
+/// most likely strengths, and so does each jump that may be elsewhere.
 pub(crate) fn mixture(
     (task, model, most): (&InferTask, &Model, &Strength),
     asked: impl Fn(&Augmented) -> Vec<(f64, f64)>,
 ) -> Vec<(f64, f64)> {
     let of = |strength: &Strength| asked(&model.augmented(strength));
-    let mut own: Option<Vec<(f64, f64)>> = None;
-    let mut mixed = Mixed::default();
-    for (strength, share) in possible(task, model, most) {
-        mixed.add(&of(&strength), share);
-    }
-    let mut known: Vec<(f64, f64)> = mixed.done().collect();
+    let mixed = |all: &[(Strength, f64)]| {
+        let mut mixed = Mixed::default();
+        all.iter().for_each(|(strength, share)| mixed.add(&of(strength), *share));
+        mixed.done().collect::<Vec<_>>()
+    };
+    let open = open_walks(task);
+    let each = open.chunks_exact(2).map(|pair| possible((task, model, most), [pair[0], pair[1]]));
+    let mut wider: Vec<Vec<(Strength, f64)>> = each.collect();
+    let first = if wider.len() == 1 { wider.pop() } else { None };
     for i in 0..most.jumps.len() {
         let others = elsewhere(model, most, i);
-        if others.is_empty() {
-            continue;
+        if !others.is_empty() {
+            wider.push([vec![(most.clone(), 1.0)], others].concat());
         }
-        let own = own.get_or_insert_with(|| of(most));
-        let mut mixed = Mixed::default();
-        mixed.add(own, 1.0);
-        others.iter().for_each(|(strength, share)| mixed.add(&of(strength), *share));
-        for ((known, own), (mean, deviation)) in known.iter_mut().zip(own).zip(mixed.done()) {
+    }
+    let own = if wider.is_empty() && first.is_some() { Vec::new() } else { of(most) };
+    let mut known = first.map_or_else(|| own.clone(), |all| mixed(&all));
+    for all in wider {
+        for ((known, own), (mean, deviation)) in known.iter_mut().zip(&own).zip(mixed(&all)) {
             let more = deviation * deviation - own.1 * own.1;
             *known = (known.0 + mean - own.0, (known.1 * known.1 + more).max(0.0).sqrt());
         }

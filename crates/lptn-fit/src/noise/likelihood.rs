@@ -17,6 +17,10 @@ const LANES: usize = 4;
 const TIMES: i32 = 24;
 const PLACES: f64 = 24.0 * 13.0;
 
+/// A product of variances below this, or above its inverse, becomes a logarithm: the next variance
+/// cannot take it out of the range of numbers.
+const TINY: f64 = 1e-100;
+
 /// Shape of noise, without its deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Shape {
@@ -265,7 +269,7 @@ impl Gains {
     pub(super) fn new(times: &[f64], shape: Shape) -> Self {
         let (c, white) = (shape.correlated, 1.0 - shape.correlated);
         let mut steps = Vec::with_capacity(times.len());
-        let (mut determinant, mut logarithm) = (0.0, 0.0);
+        let (mut determinant, mut product, mut total) = (0.0, 1.0_f64, 1.0);
         let (mut variance, mut before, mut decay) = (c, f64::NAN, 0.0);
         let mut settled = false;
         for (i, &time) in times.iter().enumerate() {
@@ -276,20 +280,24 @@ impl Gains {
                     decay = if shape.time > 0.0 { (-apart / shape.time).exp() } else { 0.0 };
                 }
                 let predicted = decay * decay * variance + c * (1.0 - decay * decay);
-                let total = predicted + white;
+                total = predicted + white;
                 let gain = predicted / total;
                 let next = predicted * (1.0 - gain);
                 settled = same && (next - variance).abs() <= 1e-13 * next;
                 variance = next;
-                logarithm = total.ln();
                 steps.push([decay, gain, total.sqrt().recip()]);
             } else {
                 steps.push(steps[i - 1]);
             }
             before = apart;
-            determinant += logarithm;
+            // one logarithm for many samples
+            product *= total;
+            if !(TINY..1.0 / TINY).contains(&product) {
+                determinant += product.ln();
+                product = 1.0;
+            }
         }
-        Self { steps, determinant }
+        Self { steps, determinant: determinant + product.ln() }
     }
 }
 

@@ -7,8 +7,14 @@ use super::columns::{Columns, add, dot};
 /// Columns that are eliminated before the others follow: those stay in the cache.
 const AT_ONCE: usize = 16;
 
+/// Below this many rows, to ask for the processor takes longer than to factor.
+const FEW: usize = 8;
+
 /// L in the lower triangle of A, which alone is read; `None` if a pivot is not positive.
 pub(super) fn factor(a: Columns<f64>) -> Option<Columns<f64>> {
+    if a.rows < FEW {
+        return Factor(a).call();
+    }
     Arch::new().dispatch(Factor(a))
 }
 

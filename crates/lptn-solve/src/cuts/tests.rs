@@ -8,7 +8,16 @@ use crate::interval::NODES;
 /// evaluated for that.
 fn cuts_of<const N: usize>(
     curves: impl Fn(f64) -> [f64; N],
+    (levels, ends): ([&[f64]; N], (f64, f64)),
+) -> (Vec<f64>, usize) {
+    rounded_cuts(curves, (levels, ends), &[])
+}
+
+/// The same for curves with these roundings.
+fn rounded_cuts<const N: usize>(
+    curves: impl Fn(f64) -> [f64; N],
     (levels, (from, to)): ([&[f64]; N], (f64, f64)),
+    roundings: &[f64],
 ) -> (Vec<f64>, usize) {
     let mut calls = 0;
     let mut at = |time: f64| {
@@ -18,7 +27,7 @@ fn cuts_of<const N: usize>(
     let ends = [at(from).unwrap(), at(to).unwrap()];
     let interval = Interval::new((from, to), ends, &mut at).unwrap();
     let of = levels.map(<[f64]>::to_vec);
-    let found = cuts(&interval, Levels { count: 1, of: &of }, &mut at).unwrap();
+    let found = cuts(&interval, Levels { count: 1, of: &of, roundings }, &mut at).unwrap();
     found.iter().for_each(|(time, values)| {
         assert_eq!(values[1..], curves(*time), "the values are those of {time}");
     });
@@ -222,4 +231,19 @@ fn curves_that_deceive_secants_are_closed_in() {
             assert_eq!(looks.len(), measured, "{k}");
         }
     }
+}
+
+/// Noise of 1e-13 around a level is no passage; a line through that level is one, also where it ends
+/// in noise.
+#[test]
+fn rounding_passes_no_level() {
+    let noise = |t: f64| 1e-13 * (1e7 * t).sin();
+    let of = |slope: f64, roundings: &[f64]| {
+        rounded_cuts(|t| [slope * (t - 4.0) + noise(t)], ([&[0.0]], (0.0, 10.0)), roundings)
+    };
+    assert!(of(0.0, &[]).0.len() > 2);
+    assert_eq!(of(0.0, &[1e-12]), (vec![], 0));
+    near(&of(1.0, &[1e-12]).0, &[4.0]);
+    let from_level = rounded_cuts(|t| [t + noise(t + 1.0)], ([&[0.0]], (0.0, 10.0)), &[1e-12]);
+    assert!(from_level.0.is_empty());
 }

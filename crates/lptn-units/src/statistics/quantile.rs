@@ -1,6 +1,6 @@
 //! Quantiles of Student's t and of chi-square.
 
-use std::f64::consts::FRAC_1_SQRT_2;
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_SQRT_PI};
 
 use super::NORMAL_95;
 
@@ -48,17 +48,37 @@ pub fn chi_square_999(degrees: f64) -> f64 {
     degrees * (1.0 - part + NORMAL_999 * part.sqrt()).powi(3)
 }
 
+/// Steps of Newton's method; some ten are usual.
+const MOST_STEPS: usize = 200;
+
 /// The size that a variable exceeds with probability 5 %. It is normal with one of these standard
 /// deviations, each after its probability.
+///
+/// The probability beyond a size is convex: Newton's method, from 0, comes from below and never
+/// passes the result.
 pub fn mixed_95(parts: &[(f64, f64)]) -> f64 {
-    let beyond = |size: f64| -> f64 {
-        let tail = |(weight, deviation): &(f64, f64)| {
-            weight * libm::erfc(size / deviation.max(f64::MIN_POSITIVE) * FRAC_1_SQRT_2)
-        };
-        parts.iter().map(tail).sum()
-    };
-    let widest = parts.iter().fold(0.0, |most: f64, part| most.max(part.1));
-    halved((0.0, 2.0 * widest), |size| beyond(size) > 0.05)
+    let wide: Vec<(f64, f64)> = parts.iter().copied().filter(|part| part.1 > 0.0).collect();
+    let mut size = 0.0;
+    for _ in 0..MOST_STEPS {
+        let (excess, slope) = tail(&wide, size);
+        let step = excess / slope;
+        if step.is_nan() || step <= f64::EPSILON * size {
+            break;
+        }
+        size += step;
+    }
+    size
+}
+
+/// The probability beyond a size less 5 %, and how fast it falls with the size.
+fn tail(parts: &[(f64, f64)], size: f64) -> (f64, f64) {
+    let (mut beyond, mut slope) = (-0.05, 0.0);
+    for (weight, deviation) in parts {
+        let x = size / deviation * FRAC_1_SQRT_2;
+        beyond += weight * libm::erfc(x);
+        slope += weight * (-x * x).exp() * FRAC_2_SQRT_PI * FRAC_1_SQRT_2 / deviation;
+    }
+    (beyond, slope)
 }
 
 /// The degrees of freedom for which Student's t exceeds `t` in size with probability 5 %: 1 for
@@ -67,20 +87,16 @@ pub fn degrees_of(t: f64) -> f64 {
     if t <= NORMAL_95 {
         return f64::INFINITY;
     }
-    halved((0.0, 20.0), |logarithm: f64| student_95(logarithm.exp()) > t).exp()
-}
-
-/// The number at which `holds`, true below it, becomes false.
-fn halved((mut low, mut high): (f64, f64), holds: impl Fn(f64) -> bool) -> f64 {
+    let (mut low, mut high): (f64, f64) = (0.0, 20.0);
     for _ in 0..50 {
         let middle = 0.5 * (low + high);
-        if holds(middle) {
+        if student_95(middle.exp()) > t {
             low = middle;
         } else {
             high = middle;
         }
     }
-    0.5 * (low + high)
+    (0.5 * (low + high)).exp()
 }
 
 #[cfg(test)]
@@ -104,6 +120,11 @@ mod tests {
         };
         near(mixed_95(&[(1.0, 2.0)]), 3.919_928);
         near(mixed_95(&[(0.8, 1.0), (0.2, 5.0)]), MIXED);
+        // the far part alone: erfc(x / (1e6 sqrt(2))) = 0.05 / 0.1, the quantile of 75 %
+        near(mixed_95(&[(0.9, 1.0), (0.1, 1e6)]), 674_489.750);
+        near(mixed_95(&[(0.9, 0.0), (0.1, 1e6)]), 674_489.750);
+        assert_eq!(mixed_95(&[(0.96, 0.0), (0.04, 3.0)]).to_bits(), 0);
+        assert_eq!(mixed_95(&[(1.0, 0.0)]).to_bits(), 0);
         near(degrees_of(2.228_139), 10.0);
         assert!(degrees_of(1.9).is_infinite());
     }

@@ -68,15 +68,22 @@ pub(super) fn check(asked: Option<&UncertaintyQuestion>, input: &Input) -> Resul
     inputs.map(drop).map_err(|error| refused(&error, input))
 }
 
-/// A failure; help for a file without `±` shows one of its parameters with it.
+/// A failure. Help for parameters without `±` shows one of them with it; a `±` elsewhere is shown.
 fn refused(error: &UncertaintyError, input: &Input) -> Failure {
     let mut failure = input.failure(error, None);
-    let line = parameter::deviation(&input.netlist);
-    if let (UncertaintyError::NoDeviation, Some(line)) = (error, line) {
-        let help = format!("give a parameter its standard deviation: `{line}` in [param]");
-        let all = std::mem::take(&mut failure.diagnostics);
-        failure.diagnostics = all.into_iter().map(|problem| problem.help(help.as_str())).collect();
+    if !matches!(error, UncertaintyError::NoDeviation) {
+        return failure;
     }
+    let line = parameter::deviation(&input.netlist);
+    let help = line.map(|l| format!("give a parameter its standard deviation: `{l}` in [param]"));
+    let spans = input.netlist.source_map.deviations_elsewhere(&input.netlist.files);
+    let complete = |problem: Diagnostic| {
+        let shown = problem.help(help.clone());
+        spans.iter().fold(shown, |shown, span| {
+            shown.also(span.clone(), "not in [param]: it is not counted")
+        })
+    };
+    failure.diagnostics = failure.diagnostics.into_iter().map(complete).collect();
     failure
 }
 

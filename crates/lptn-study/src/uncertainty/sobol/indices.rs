@@ -103,6 +103,9 @@ impl Column {
     /// 2 (b) and (f), the first with values counted from their mean. Zero if nothing varies.
     fn indices(&self, input: usize, left_out: Option<usize>) -> [f64; 2] {
         let (mean, deviation) = moments(&self.kept(left_out));
+        if deviation > 0.0 && self.blocks.iter().all(|row| row.mixed.len() == 1) {
+            return [1.0; 2]; // the only parameter
+        }
         let (mut sums, mut n) = ([0.0; 2], 0.0);
         for row in self.rows(left_out) {
             let ([Some(first), Some(second)], Some(mixed)) = (row.base, row.mixed[input]) else {
