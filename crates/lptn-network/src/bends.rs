@@ -66,7 +66,7 @@ impl Bends {
     }
 
     /// Takes the roundings from the state of `scope`: each temperature, heat flow, signal and time
-    /// is off by [`ROUNDED`] of itself.
+    /// is off by 7e-15 of itself.
     pub fn stand(&mut self, scope: &mut Evaluation) {
         let slots = scope.plain().0;
         let off = |slot: u32| {
