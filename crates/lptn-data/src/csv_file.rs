@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lptn_units::{Type, Unit};
+use lptn_units::{Type, Unit, format_short};
 
 use crate::clock::{Clock, TIME};
 use crate::diagnostic::Diagnostic;
@@ -12,7 +12,7 @@ use crate::hints;
 use crate::limits::MOST_PROBLEMS;
 use crate::open::open;
 use crate::options::CsvOptions;
-use crate::record::spikes::spikes;
+use crate::record::spikes::{spikes, told};
 use crate::text::CsvText;
 
 /// An example of a header.
@@ -53,9 +53,13 @@ impl PlacedNumbers {
         place.unwrap_or_else(|| self.whole.clone())
     }
 
-    /// The positions of numbers that are far outside of those around them, as in a record.
-    pub fn outliers(&self) -> Vec<usize> {
-        spikes(&self.numbers)
+    /// The first number that is far outside of those around it, as in a record, with the text on
+    /// it.
+    pub fn outlying(&self) -> Option<(usize, String)> {
+        let (unit, outliers) = (self.unit.as_ref()?, spikes(&self.numbers));
+        let shown =
+            |i: usize| format!("{} {}", format_short(unit.from_si(self.numbers[i])), unit.text);
+        Some((*outliers.first()?, told((&outliers, self.numbers.len()), "", shown)?))
     }
 }
 

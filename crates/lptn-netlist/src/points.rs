@@ -3,9 +3,7 @@
 use std::sync::Arc;
 
 use lptn_data::{CsvFile, Diagnostic, PlacedNumbers, Places, fit};
-use lptn_units::{
-    Expression, TableError, Type, Unit, format_short, parse_quantity, written_quantity,
-};
+use lptn_units::{Expression, TableError, Type, Unit, parse_quantity, written_quantity};
 
 use crate::csv_form;
 use crate::fields::{Fields, wrong_shape};
@@ -26,19 +24,8 @@ pub(crate) struct Axis<'k> {
 
 /// The warning about a temperature over time that is far from its neighbours.
 fn outlying(fields: &Fields<'_>, points: &PlacedNumbers) -> Option<Diagnostic> {
-    let unit = points.unit.as_ref().filter(|_| points.ty.absolute)?;
-    let outliers = points.outliers();
-    let first = *outliers.first()?;
-    let near = (first + 1..points.numbers.len()).find(|i| !outliers.contains(i));
-    let near = near.or_else(|| (0..first).next_back())?;
-    let shown =
-        |i: usize| format!("{} {}", format_short(unit.from_si(points.numbers[i])), unit.text);
-    let more = match outliers.len() {
-        1 => String::new(),
-        all => format!("; {} more are as far off", all - 1),
-    };
-    let (owner, value, next) = (fields.owner.words(), shown(first), shown(near));
-    let message = format!("{owner} reads {value}, but {next} next to it{more}");
+    let (first, text) = points.outlying().filter(|_| points.ty.absolute)?;
+    let message = format!("{} {text}", fields.owner.words());
     let help = "a broken wire, or a digit lost? correct the cell, or remove its row";
     let warning = Diagnostic::warning("netlist::csv_outlier", message);
     Some(warning.at(points.place(first), "").help(help))

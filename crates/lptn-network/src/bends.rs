@@ -22,7 +22,7 @@ pub struct Bends {
     /// For each of them the values at which a result bends, rising.
     levels: Vec<Vec<f64>>,
     /// The slots that move in the programs.
-    read: Vec<u32>,
+    rounded: Vec<u32>,
     /// For each of them the change that rounding of these slots makes.
     roundings: Vec<f64>,
     /// Results that are not straight in a temperature or heat flow.
@@ -74,7 +74,7 @@ impl Bends {
             let by = ROUNDED * value.abs();
             Some(Taylor::between(&[[value - by, value + by]]))
         };
-        let known = |slot: u32| self.read.binary_search(&slot).ok().and_then(|_| off(slot));
+        let known = |slot: u32| self.rounded.binary_search(&slot).ok().and_then(|_| off(slot));
         let width = |program: &Program| {
             let range = program.enclose_along(&known, slots).range();
             range.map_or(0.0, |[low, high]| high - low)
@@ -145,9 +145,9 @@ impl Bends {
         let known = self.programs.iter().position(|other| other.fingerprint() == form);
         let place = known.unwrap_or_else(|| {
             let moves = |slot: &u32| moves(network.parts.layout.holds(*slot));
-            self.read.extend(program.slot_list().iter().copied().filter(moves));
-            self.read.sort_unstable();
-            self.read.dedup();
+            self.rounded.extend(program.slot_list().iter().copied().filter(moves));
+            self.rounded.sort_unstable();
+            self.rounded.dedup();
             self.programs.push(program.clone());
             self.levels.push(Vec::new());
             self.levels.len() - 1

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::file::Span;
-use crate::record::spikes::spikes;
+use crate::record::spikes::{spikes, told};
 use crate::record::{Record, RecordColumn, Saturation};
 use lptn_units::format_short as short;
 
@@ -60,24 +60,15 @@ pub(crate) fn outlying(
     text: &str,
 ) -> Option<Diagnostic> {
     let (first, column) = (*rows.first()?, &record.columns[column]);
-    let near = (first + 1..record.time.len()).find(|row| !rows.contains(row));
-    let near = near.or_else(|| (0..first).next_back());
-    let near = shown(column, column.values[near.unwrap_or(first)]);
-    let more = match rows.len() {
-        1 => String::new(),
-        n => format!("; {} more are as far off", n - 1),
-    };
+    let at = format!(" at {} s", short(record.time[first]));
+    let value = |row: usize| shown(column, column.values[row]);
+    let said = told((rows, record.time.len()), &at, value)?;
     let done = match (dropped, rows.len()) {
         (false, _) => "",
         (true, 1) => ": it is left out",
         (true, _) => ": they are left out",
     };
-    let message = format!(
-        "column `{}` reads {} at {} s, but {near} next to it{more}{done}",
-        column.name,
-        shown(column, column.values[first]),
-        short(record.time[first])
-    );
+    let message = format!("column `{}` {said}{done}", column.name);
     let warning = Diagnostic::warning("record::outlier", message)
         .at(record.line_in(text, first), if rows.len() == 1 { "" } else { "the first" });
     let help = "a broken wire, or a digit lost? a fit leaves such values out with \

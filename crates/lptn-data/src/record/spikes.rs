@@ -31,6 +31,23 @@ pub(crate) fn spikes(values: &[f64]) -> Vec<usize> {
     }
 }
 
+/// The text on outliers among `count` values: the first of them, `at` its time, the next value that
+/// is not one, and the number of others.
+pub(crate) fn told(
+    (outliers, count): (&[usize], usize),
+    at: &str,
+    shown: impl Fn(usize) -> String,
+) -> Option<String> {
+    let first = *outliers.first()?;
+    let near = (first + 1..count).find(|place| !outliers.contains(place));
+    let near = near.or_else(|| (0..first).next_back()).unwrap_or(first);
+    let more = match outliers.len() {
+        1 => String::new(),
+        all => format!("; {} more are as far off", all - 1),
+    };
+    Some(format!("reads {}{at}, but {} next to it{more}", shown(first), shown(near)))
+}
+
 /// True if a value is far outside of all others, whatever their time history.
 fn is_far(values: &[f64], i: usize) -> bool {
     let others = || values.iter().enumerate().filter(|(k, _)| *k != i).map(|(_, v)| *v);

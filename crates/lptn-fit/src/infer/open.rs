@@ -31,7 +31,7 @@ const FACTOR: f64 = 2.0;
 const NOT_FELT: f64 = 0.05;
 
 /// The possible strengths of one time history, with their shares; those of the others are at their
-/// most likely values. `places` are those of its walk and of the walk of its slope.
+/// most likely values. `course` and `slope` are the places of its walk and of that of its slope.
 fn possible(
     (task, model, most): (&InferTask, &Model, &Strength),
     [course, slope]: [usize; 2],
