@@ -359,3 +359,35 @@ fn a_probability_holds_on_both_sides_of_a_kink_and_for_times() {
     let hotter = solved("max(a.T, b.T) <= 53 [degC]");
     assert!(hotter > 1.0868 && hotter < 1.04 * 1.0868, "{hotter}");
 }
+
+/// Powers of 10 ± 3 W into one body, or 20 ± 2 W into each of two, over `R` to 20 degC: none reaches
+/// the kink alone. Their sum and difference are normal, z as above.
+#[test]
+fn a_kink_that_only_several_parameters_reach_together_is_seen() {
+    let solved = |require: &str| {
+        let powers: String = (0..9).map(|i| format!("P{i} = \"10 ± 3 W\"\n")).collect();
+        let sum: Vec<String> = (0..9).map(|i| format!("P{i}")).collect();
+        let text = format!(
+            "format = 1\n[param]\nR = \"0.3 K/W\"\n{powers}A = \"20 ± 2 W\"\nB = \"20 ± 2 W\"\n\
+             [node]\nx = {{ C = \"100 J/K\", T0 = \"20 degC\" }}\n\
+             a = {{ C = \"10 J/K\", T0 = \"20 degC\" }}\nb = {{ C = \"10 J/K\", T0 = \"20 degC\" }}\n\
+             [boundary]\nair = {{ T = \"20 degC\" }}\n[resistor]\n\
+             r = {{ from = \"x\", to = \"air\", R = \"R\" }}\n\
+             r_a = {{ from = \"a\", to = \"air\", R = \"R\" }}\n\
+             r_b = {{ from = \"b\", to = \"air\", R = \"R\" }}\n[source]\n\
+             s = {{ into = \"x\", P = \"{}\" }}\ns_a = {{ into = \"a\", P = \"A\" }}\n\
+             s_b = {{ into = \"b\", P = \"B\" }}\n[size.s]\nmaximise = \"R\"\n\
+             vary = {{ R = {{ from = \"0.05 K/W\", to = \"5 K/W\" }} }}\n\
+             require = [\"{require}\"]\nprobability = \"95 %\"\n",
+            sum.join(" + ")
+        );
+        let netlist = parse("a.toml", &text).unwrap_or_else(|rejected| panic!("{rejected}"));
+        solve(&netlist).unwrap().trial.value
+    };
+    let (one, two) = (1.644_853_627, 1.959_963_985);
+    near(solved("max(0 [K], x.T - 54 [degC]) <= 1 [K]"), 35.0 / (90.0 + 9.0 * one), 1e-6);
+    near(solved("max(0 [K], abs(a.T - b.T) - 5 [K]) <= 1 [K]"), 6.0 / (two * 8.0_f64.sqrt()), 1e-6);
+    // the safe side of an intersection: 1.0223 is enough if both are hot, z = 0.760
+    let both = solved("min(a.T, b.T) <= 42 [degC]");
+    assert!(both <= 22.0 / (20.0 + 2.0 * 0.760) && both > 0.95, "{both}");
+}

@@ -360,3 +360,20 @@ fn straight_lines_that_miss_another_moment_are_named() {
     assert!(margin.linear < 1e-3, "{margin:?}");
     assert_eq!(found("20 ± 6 W"), []);
 }
+
+/// A rise of 31.5 K with nine contributions of ± 1 K: 95 % of it lies within ± 1.96 x 3 K, and
+/// the part above 35.5 K within 1.96 x 3 - 4 K. One contribution alone does not reach 35.5 K.
+#[test]
+fn a_kink_that_only_several_parameters_reach_together_is_told() {
+    let powers: String = (0..9).map(|i| format!("P{i} = \"7 ± 2 W\"\n")).collect();
+    let sum: Vec<String> = (0..9).map(|i| format!("P{i}")).collect();
+    let network = ONE_NODE.replace("P = \"P\"", &format!("P = \"{}\"", sum.join(" + ")))
+        + "[limit]\nclip = { of = \"max(0 [K], block.T - 55.5 [degC])\", below = \"1 K\" }\n\
+           warm = { of = \"block.T\", below = \"80 degC\" }\n";
+    let found =
+        linear(&parsed(&network.replace("1000 s", "20 ks"), &(powers + "T_amb = \"20 degC\"")));
+    let UncertaintyMethod::Linear { bent, .. } = &found.method else { panic!() };
+    let [bent] = bent.as_slice() else { panic!("{bent:?}") };
+    assert_eq!(bent.linear, 0.0);
+    near(bent.found, 3.0 * 1.959_963_985 - 4.0, 1e-4);
+}

@@ -208,6 +208,33 @@ impl Network {
         result.slots().iter().any(is_result)
     }
 
+    /// The nodes whose temperatures results read, ascending: also those of grids, and those at the
+    /// ends of a path whose heat flow they read.
+    pub fn nodes_read_by(&self, results: &[&Value]) -> Vec<NodeId> {
+        let node = |end: End| if let End::Node(id) = end { Some(id) } else { None };
+        let of_slot = |slot: u32| -> Vec<NodeId> {
+            match self.parts.layout.holds(slot) {
+                Holds::Temperature(end) => node(end).into_iter().collect(),
+                Holds::Grid(value) => {
+                    self.grid_value_members(value).into_iter().map(NodeId).collect()
+                }
+                Holds::Heat(of) => match of.item() {
+                    Item::Conductor(id) => {
+                        let conductor = &self.parts.conductors[id.index()];
+                        [conductor.from, conductor.to].into_iter().filter_map(node).collect()
+                    }
+                    _ => Vec::new(),
+                },
+                _ => Vec::new(),
+            }
+        };
+        let slots = results.iter().flat_map(|result| result.slots());
+        let mut nodes: Vec<NodeId> = slots.flat_map(of_slot).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+
     /// True if a result reads temperatures of nodes, and means of grids, and nothing else, each in
     /// the first degree at most. This follows from its code and not from its numbers: a parameter
     /// that happens to be 0 is read all the same.

@@ -6,9 +6,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use lptn_analysis::{Analysis, Found, RunAnalysis, Trust, Trusted};
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Netlist, Requirement};
-use lptn_network::{Network, ParameterId, RunSettings, Value};
+use lptn_network::{Limit, Network, NodeId, ParameterId, RunSettings, Value};
 use lptn_solve::{
-    OutOfRange, Proceed, Progress, ProvenMargin, Selection, Solution, SteadyState, Uncertified,
+    OutOfRange, Proceed, Progress, ProvenMargin, RecordedNodes, Selection, Solution, SteadyState,
+    Uncertified,
 };
 use lptn_units::EvalError;
 
@@ -16,6 +17,7 @@ use crate::size::aim::Aim;
 use crate::size::error::{SizeError, TrialError};
 use crate::size::load_case::LoadCase;
 use crate::uncertainty::Inputs;
+use crate::uncertainty::joint::NodesRead;
 
 /// The finest tolerance in K of runs that are judged, unless the run itself needs a finer one. Ten
 /// times this is 1e-8 of a rise of 1 K.
@@ -124,6 +126,9 @@ pub struct Judged {
     pub left_out: Vec<f64>,
     /// The time of each least margin in s; `None` in steady state.
     pub worst_at: Vec<Option<f64>>,
+    /// The temperature in K at the end, and the highest one, of each node that a requirement reads,
+    /// if a probability is required.
+    pub(super) reached: Vec<f64>,
     /// The laws that are outside the ranges in which they are known.
     pub out_of_range: Vec<OutOfRange>,
     /// The objective in SI units if it reads results; the worst of several load cases.
@@ -150,6 +155,8 @@ pub(crate) struct Judge<'a> {
     /// The objective, if it reads results.
     sought: Option<Aim<'a>>,
     pub(super) base: Network,
+    /// The nodes that the requirements read, if a probability is required.
+    pub(super) read: NodesRead,
     count: AtomicUsize,
 }
 
@@ -187,8 +194,10 @@ impl<'a> Judge<'a> {
             _ => demand.network.clone(),
         };
         // limits are evaluated between rows and steps
+        let limits: Vec<Limit> = limits.collect();
+        let read = NodesRead::of(&base, if demand.doubt.is_some() { &limits } else { &[] });
         let base = base.requiring(limits);
-        Ok(Self { demand, sought, base, count: AtomicUsize::new(0) })
+        Ok(Self { demand, sought, base, read, count: AtomicUsize::new(0) })
     }
 
     /// Number of networks that were solved.
@@ -300,6 +309,8 @@ impl<'a> Judge<'a> {
             let settings = of(network).map_err(TrialError::Settings)?;
             let tolerance = care.tolerance(settings.tolerance);
             let run = RunAnalysis::of(network, &settings).bare().at(vec![]).within(tolerance);
+            let nodes = &self.read.nodes;
+            let run = run.keeping(RecordedNodes::Nodes(nodes.clone())).watching(nodes.clone());
             Ok::<_, TrialError>(match care {
                 Care::Certified => run.certified(Selection::of_reports(&[])),
                 _ => run,
@@ -326,8 +337,10 @@ impl<'a> Judge<'a> {
         let requirements = self.demand.requirements;
         let margins = requirements.iter().map(margin).collect::<Result<_, _>>()?;
         let sought = self.sought.map(|aim| finite(aim.value.at(&mut scope))).transpose();
+        let at = |node: &NodeId| [answer.state.temperatures[node.index()]; 2];
         Ok(Judged {
             margins,
+            reached: self.read.nodes.iter().flat_map(at).collect(),
             worst_at: vec![None; requirements.len()],
             out_of_range: answer.trust.out_of_range,
             objective: sought.map_err(TrialError::Objective)?,
@@ -351,7 +364,13 @@ impl<'a> Judge<'a> {
             let text = self.demand.requirements[i].text.clone();
             return Err(TrialError::Requirement { text, error: None });
         }
+        let last = |node: NodeId| Some(*solution.temperature(node)?.last()?);
+        let reached = solution
+            .watched()
+            .iter()
+            .flat_map(|seen| [last(seen.watch.node).unwrap_or(f64::NAN), seen.peak.0]);
         Ok(Judged {
+            reached: reached.collect(),
             margins: seen.iter().map(|seen| seen.margin).collect(),
             worst_at: seen.iter().map(|seen| Some(seen.worst_at)).collect(),
             out_of_range: trust.out_of_range.clone(),

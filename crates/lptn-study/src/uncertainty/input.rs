@@ -118,6 +118,20 @@ impl Inputs {
         };
         (0..n).map(along).collect()
     }
+
+    /// Moves of the parameters, in their standard deviations, along a vector of the independent
+    /// numbers.
+    pub(crate) fn along(&self, vector: &[f64]) -> Vec<(Uncertain, f64)> {
+        let mut moves = vec![0.0; self.all.len()];
+        for (direction, by) in self.directions().iter().zip(vector) {
+            for (input, part) in direction {
+                let place = self.all.iter().position(|one| one.parameter == input.parameter);
+                moves[place.unwrap_or_default()] += by * part;
+            }
+        }
+        let all = self.all.iter().copied().zip(moves);
+        all.filter(|(_, part)| part.abs() > 0.0).collect()
+    }
 }
 
 /// The parameters of `network` that are not certain, in the order of the network. A deviation in

@@ -12,6 +12,7 @@ mod difference;
 mod error;
 mod estimate;
 mod input;
+pub(crate) mod joint;
 mod linear;
 mod lost;
 pub(crate) mod points;

@@ -37,8 +37,9 @@ pub struct Bent {
     pub of: AnswerOf,
     /// Half the band of 95 % of straight lines, in SI units.
     pub linear: f64,
-    /// The larger change in SI units, down or up, if each parameter is at the 2.5 % or 97.5 % end of
-    /// its own distribution; the changes by several parameters add as squares.
+    /// The largest change in SI units, down or up: if each parameter alone is at the 2.5 % or 97.5 %
+    /// end of its own distribution, the changes added as squares, and if several move together to a
+    /// point that is as far from the centre.
     pub found: f64,
 }
 
