@@ -374,6 +374,6 @@ fn a_kink_that_only_several_parameters_reach_together_is_told() {
         linear(&parsed(&network.replace("1000 s", "20 ks"), &(powers + "T_amb = \"20 degC\"")));
     let UncertaintyMethod::Linear { bent, .. } = &found.method else { panic!() };
     let [bent] = bent.as_slice() else { panic!("{bent:?}") };
-    assert_eq!(bent.linear, 0.0);
+    assert!(bent.linear.abs() <= 0.0);
     near(bent.found, 3.0 * 1.959_963_985 - 4.0, 1e-4);
 }
