@@ -272,3 +272,29 @@ fn each_signal_has_its_own_ratio() {
     let constant = signals["signals"]["P"]["constant"]["value"].as_f64().unwrap();
     assert!((constant - 50.0).abs() < 0.5, "{constant}");
 }
+
+/// Eight rows of a thermocouple out of its range, which no run follows: the rows are named, not a
+/// node below absolute zero. Left out, they do not matter.
+#[test]
+fn rows_that_no_run_follows_are_named() {
+    let folder = folder(STUDY);
+    // the heat enters a core, which has to be far hotter and colder than the body
+    let core = "core = { C = \"500 J/K\", T0 = \"25 degC\" }\nbody = ";
+    let fit = "[resistor]\nfit = { from = \"core\", to = \"body\", R = \"0.1 K/W\" }\n";
+    let text = folder.read("body.toml").replace("body = ", core).replace("[resistor]\n", fit);
+    folder.write("body.toml", &text.replace("into = \"body\"", "into = \"core\""));
+    let rows = record();
+    let over = rows.lines().enumerate().map(|(i, line)| match (i, line.split(',').next()) {
+        (60..68, Some(t)) => format!("{t},1300,1300\n"),
+        _ => format!("{line}\n"),
+    });
+    folder.write("record.csv", &over.collect::<String>());
+    let ran = folder.run(&["infer", "body.toml"]);
+    let ran = ran.says("record::outlier").says("reads 1300 degC at 590 s and in 7 rows after it");
+    assert!(ran.code != Some(0) && ran.err.contains("infer::unfollowed"), "{}", ran.err);
+    assert!(ran.err.contains("column `ring`"), "{}", ran.err);
+    let dropped = format!("{STUDY}outliers = \"drop\"\n");
+    let text = folder.read("body.toml").replace(STUDY, &dropped);
+    folder.write("body.toml", &text);
+    folder.run(&["infer", "body.toml"]).exits(0).prints("P = ");
+}
