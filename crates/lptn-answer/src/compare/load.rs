@@ -70,7 +70,7 @@ pub fn load(file: &Path, variant: &Variant, belief: &Belief<'_>) -> Loaded {
     let has: Vec<bool> = set.iter().map(has_it).collect();
     let own: Vec<String> =
         set.iter().zip(&has).filter(|(_, has)| **has).map(|(text, _)| text.clone()).collect();
-    let outcome = input.netlist.set(&own);
+    let outcome = input::replace(&mut input.netlist, &input.set, &own);
     let input = outcome.map(|()| input).map_err(Failure::from);
     Loaded { file: name, label: variant.label.clone(), input, has }
 }
