@@ -5,8 +5,8 @@ use std::path::Path;
 
 use lptn_assembly::{AssemblyError, ThermalSystem};
 use lptn_netlist::{
-    Diagnostic, Files, GivenTime, MOST_BYTES, Netlist, ReadError, Rejected, RunTime, Severity,
-    Span, parse_bytes, parse_file, similar_file,
+    Diagnostic, Files, GivenTime, MOST_BYTES, Netlist, ReadError, Rejected, RunTime, Span,
+    parse_bytes, parse_file, similar_file,
 };
 use lptn_network::{InputError, Item, ParameterId};
 use lptn_report::{Json, Text, plain};
@@ -16,6 +16,7 @@ use crate::belief::Belief;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::messages;
+use crate::overridden;
 use crate::parameter;
 use crate::words::{counts, unverified, unverified_names};
 
@@ -121,41 +122,9 @@ pub fn apply(
         let case = case.clone();
         set = netlist.take_case(&case)?;
     }
-    replace(netlist, &set, assignments)?;
+    overridden::replace(netlist, &set, assignments)?;
     set.extend_from_slice(assignments);
     Ok(set)
-}
-
-/// Sets values after those of the load case that was taken, which a note names if they are replaced.
-///
-/// # Errors
-/// An assignment that does not fit the netlist.
-pub fn replace(
-    netlist: &mut Netlist,
-    of_case: &[String],
-    assignments: &[String],
-) -> Result<(), Rejected> {
-    netlist.set(assignments)?;
-    let notes: Vec<Diagnostic> = overridden(netlist.case(), of_case, assignments).collect();
-    netlist.warnings.extend(notes);
-    Ok(())
-}
-
-/// A note for each value of a load case that another assignment replaces.
-fn overridden<'a>(
-    case: Option<&'a str>,
-    of_case: &'a [String],
-    assignments: &'a [String],
-) -> impl Iterator<Item = Diagnostic> + 'a {
-    let name = |text: &'a String| text.split_once('=').map(|(name, _)| name.trim());
-    let pairs = assignments
-        .iter()
-        .filter_map(move |new| Some((new, of_case.iter().find(|own| name(own) == name(new))?)));
-    pairs.zip(std::iter::repeat(case)).filter_map(|((new, own), case)| {
-        let message = format!("--set {new} replaces {own} of [case.{}]", case?);
-        let note = Diagnostic::error("input::case_overridden", message);
-        Some(Diagnostic { severity: Severity::Note, ..note })
-    })
 }
 
 fn no_case(netlist: &Netlist, text: &Given, name: &str) -> Failure {

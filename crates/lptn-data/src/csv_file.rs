@@ -12,7 +12,7 @@ use crate::hints;
 use crate::limits::MOST_PROBLEMS;
 use crate::open::open;
 use crate::options::CsvOptions;
-use crate::record::spikes::{outliers, told};
+use crate::record::outliers::{outliers, told};
 use crate::text::CsvText;
 
 /// An example of a header.

@@ -98,17 +98,6 @@ impl Network {
         limits.chain(self.report_ids().map(Item::Report)).chain(idle.map(Item::Signal)).collect()
     }
 
-    /// The points inside `(start, stop)` in s of signals that are joined by cubics, ascending. Nothing
-    /// bends there, but each cubic ends.
-    ///
-    /// # Errors
-    /// As [`Network::breakpoints`].
-    pub fn ends_of_cubics(&self, start: f64, stop: f64) -> Result<Vec<f64>, InputError> {
-        let cubic = |course: &Course| !course.is_straight() && course.is_monotone();
-        let used: Vec<bool> = self.signals().iter().map(|signal| cubic(&signal.course)).collect();
-        self.points(&used, (start, stop), false)
-    }
-
     fn times_of(&self, what: &Watched<'_>, (start, stop): Stretch) -> Result<Vec<f64>, InputError> {
         let mut times = self.points(&what.signals, (start, stop), true)?;
         let mut ends = self.points(&what.signals, (start, stop), false)?;

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::file::Span;
-use crate::record::spikes::{self, told};
+use crate::record::outliers::{self, told};
 use crate::record::{Record, RecordColumn, Saturation};
 use lptn_units::format_short as short;
 
@@ -51,7 +51,7 @@ pub(crate) fn outliers(record: &Record, column: &RecordColumn) -> Vec<usize> {
     let rows: Vec<usize> =
         (0..record.time.len()).filter(|&row| !column.values[row].is_nan()).collect();
     let values: Vec<f64> = rows.iter().map(|&row| column.values[row]).collect();
-    let places = spikes::outliers(&values, column.unit.ty.absolute);
+    let places = outliers::outliers(&values, column.unit.ty.absolute);
     places.into_iter().map(|place| rows[place]).collect()
 }
 

@@ -24,9 +24,10 @@ mod cells;
 mod columns;
 mod doubts;
 mod lines;
+pub(crate) mod outliers;
 mod rows;
 mod sheet;
-pub(crate) mod spikes;
+mod spikes;
 mod stuck;
 mod times;
 

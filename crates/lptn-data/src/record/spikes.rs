@@ -1,9 +1,7 @@
-//! Outliers: a broken wire, a lost digit, a channel that is stuck.
+//! Outliers: a broken wire, a lost digit.
 //!
 //! An outlier lies outside of the values before and after it by far more than they scatter. A step
 //! of the power lies between both and is not one.
-
-use crate::record::stuck::{LONG, stuck};
 
 /// Number of values on each side with which one is compared.
 const SIDE: usize = 7;
@@ -24,54 +22,13 @@ const ALONE: f64 = 0.1;
 const FEWEST: usize = 6;
 const SPAN: f64 = 30.0;
 
-/// The places of outliers, in order; those of a temperature in K include readings that are stuck.
-/// `values` has no gaps.
-pub(crate) fn outliers(values: &[f64], is_temperature: bool) -> Vec<usize> {
-    let mut found = spikes(values);
-    if is_temperature {
-        found.extend(stuck(values));
-        found.sort_unstable();
-        found.dedup();
-    }
-    found
-}
-
 /// The places of values that are far from those around them.
-fn spikes(values: &[f64]) -> Vec<usize> {
+pub(crate) fn spikes(values: &[f64]) -> Vec<usize> {
     match values.len() {
         ..FEWEST => Vec::new(),
         few if few < 3 * SIDE => (1..few - 1).filter(|&i| is_far(values, i)).collect(),
         _ => scattered(values),
     }
-}
-
-/// The text on outliers among `count` values: the first of them, `at` its time, the number of rows
-/// in which it stays, the next value that is not one, and the number of others.
-pub(crate) fn told(
-    (outliers, count): (&[usize], usize),
-    at: &str,
-    shown: impl Fn(usize) -> String,
-) -> Option<String> {
-    let first = *outliers.first()?;
-    let near = (first + 1..count).find(|place| !outliers.contains(place));
-    let near = near.or_else(|| (0..first).next_back()).unwrap_or(first);
-    let (value, near) = (shown(first), shown(near));
-    let alike = |(place, k): &(&usize, usize)| **place == first + k && shown(**place) == value;
-    let (all, same) = (outliers.len(), outliers.iter().zip(0..).take_while(alike).count());
-    let rest = |known: usize| match all - known {
-        0 => String::new(),
-        more => format!("; {more} more are as far off"),
-    };
-    Some(match same {
-        ..LONG => format!("reads {value}{at}, but {near} next to it{}", rest(1)),
-        _ => {
-            let others = same - 1;
-            let rest = rest(same);
-            format!(
-                "reads {value}{at} and in {others} rows after it, but {near} next to them{rest}"
-            )
-        }
-    })
 }
 
 /// True if a value is far outside of all others, whatever their time history.

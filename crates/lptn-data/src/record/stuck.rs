@@ -105,7 +105,7 @@ mod tests {
     /// A rise of 60 K in 800 s, every 5 s, with noise of 0.05 K or none, rounded to `step`.
     fn rise(noise: f64, step: f64) -> Vec<f64> {
         let value = |k: u32| {
-            // noise without a seed: what is left of a golden section
+            // noise without a seed: the remainder of a golden section
             let noise = noise * 3.46 * ((f64::from(k) * 0.618_034).fract() - 0.5);
             300.0 + 60.0 * (1.0 - f64::exp(-f64::from(k) / 160.0)) + noise
         };
@@ -158,7 +158,7 @@ mod tests {
             // before the test, and cold again in one row after it
             assert!(stuck(&at_rest(rise(0.0, step))).is_empty(), "{step}");
         }
-        // a bath under control: set values, and a ramp that is held
+        // a bath under control: set values, and a ramp with a plateau
         let set: Vec<f64> =
             (0..300).map(|k| if k / 40 % 2 == 0 { 293.15 } else { 353.15 }).collect();
         assert!(stuck(&set).is_empty());

@@ -81,7 +81,7 @@ fn told(task: &InferTask, settled: &Settled) -> Inferred {
     }
 }
 
-/// Each time history if it does not change and the others do what is then most likely, with the
+/// Each time history if it does not change and the others are as likely as possible, with the
 /// log-likelihood then.
 fn still(
     task: &InferTask,

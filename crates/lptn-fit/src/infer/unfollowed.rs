@@ -2,7 +2,7 @@
 //!
 //! The estimates follow every reading. If one is wrong by far, the network has to be heated to it and
 //! cooled again within a row, below absolute zero. The run of such estimates names a node and a
-//! state that nobody wrote, so the rows are named instead.
+//! state that are not in the file, so the rows are named instead.
 
 use lptn_solve::TransientError;
 

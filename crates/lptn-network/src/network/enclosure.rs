@@ -81,6 +81,19 @@ impl Network {
         })
     }
 
+    /// The points inside `(start, stop)` in s of signals that are joined by cubics, in the order of the
+    /// signals. Nothing bends there, but each cubic ends. Signals with points beyond number, which
+    /// no run accepts, are left out.
+    pub fn ends_of_cubics(&self, start: f64, stop: f64) -> Vec<f64> {
+        let mut times = Vec::new();
+        let cubic = |course: &&Course| !course.is_straight() && course.is_monotone();
+        let courses = self.signals().iter().map(|signal| &signal.course).filter(cubic);
+        courses.for_each(|course| {
+            let _ = course.points((start, stop), false, &mut times);
+        });
+        times
+    }
+
     /// Bounds on the heat in W that the two ends of a conductor receive while the vertices (nodes,
     /// then boundaries) have the bounds `at`, in K; `None` if there are none.
     pub fn enclose_exchange(
@@ -169,7 +182,7 @@ fn unknown() -> Bounded {
 }
 
 /// A curve of cubics over times in s that reach beyond neither its first nor its last point, except
-/// by rounding; or that lie outside of them, where its first or last value stays.
+/// by rounding; or that lie outside of them, with its first or last value.
 fn on_cubic(points: &Table1, (from, to): (f64, f64), line: Line) -> Bounded {
     let (knots, values) = (points.knots(), points.values());
     let (first, last) = (knots[0], knots[knots.len() - 1]);
