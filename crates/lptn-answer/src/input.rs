@@ -16,6 +16,7 @@ use crate::belief::Belief;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::messages;
+use crate::overridden;
 use crate::parameter;
 use crate::words::{counts, unverified, unverified_names};
 
@@ -121,7 +122,7 @@ pub fn apply(
         let case = case.clone();
         set = netlist.take_case(&case)?;
     }
-    netlist.set(assignments)?;
+    overridden::replace(netlist, &set, assignments)?;
     set.extend_from_slice(assignments);
     Ok(set)
 }

@@ -40,6 +40,7 @@ pub mod messages;
 pub mod modes;
 pub mod operating_point;
 mod over_time;
+mod overridden;
 mod parameter;
 pub mod period;
 pub mod plan;

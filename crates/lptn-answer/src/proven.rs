@@ -2,7 +2,7 @@
 
 use lptn_analysis::LimitResult;
 use lptn_netlist::Diagnostic;
-use lptn_network::{Item, Network, NodeId, list_of_names};
+use lptn_network::{Item, Network, NodeId, list_of};
 use lptn_report::rounded_up as up;
 use lptn_solve::{NodeSummary, Selection, Solution, Uncertified};
 use lptn_units::Unit;
@@ -119,7 +119,7 @@ fn notes_of(solution: &Solution, meaning: &str, without: Vec<String>) -> Vec<Str
     notes.extend(verdicts(solution.network(), &limits));
     notes.extend(
         (!without.is_empty())
-            .then(|| format!("without a proven error: {}", list_of_names(&without))),
+            .then(|| format!("without a proven error: {}", list_of(&without, "results"))),
     );
     notes
 }
@@ -137,7 +137,7 @@ pub(crate) fn verdicts(network: &Network, all: &[LimitResult]) -> Vec<String> {
         let these = all.iter().filter(|found| !found.is_open() && found.is_proven() == wanted);
         let name = |found: &LimitResult| network.limits()[found.limit.index()].name.clone();
         let names: Vec<String> = these.map(name).collect();
-        (!names.is_empty()).then(|| list_of_names(&names))
+        (!names.is_empty()).then(|| list_of(&names, "limits"))
     };
     let proven = names(Some(true))
         .map(|names| format!("proven verdicts: {names}: the exact solution has the same"));

@@ -119,7 +119,8 @@ fn names_two_files(verb: &Verb, args: &Args) -> bool {
 fn version() -> String {
     let sundials = lptn_study::Sundials::linked();
     let linkage = match sundials.linkage {
-        "system" => "library of the system",
+        // the program may contain it
+        "system" => "library of the system that built it",
         _ => "copy inside the program",
     };
     format!("lptn {}\nSUNDIALS {}, {linkage}\n", env!("CARGO_PKG_VERSION"), sundials.version)

@@ -159,3 +159,22 @@ fn a_case_that_a_file_without_cases_lacks_is_shown_with_its_parameters() {
     folder.write("hot.toml", &format!("{text}\n[case.hot]\n{line}\n"));
     folder.run(&["run", "hot.toml", "--case", "hot", "--no-files"]).exits(0);
 }
+
+/// `--set` goes before the cases, which is told for each value that it replaces.
+#[test]
+fn a_replaced_value_of_a_case_is_told() {
+    let text = "format = 1\n[param]\nP = \"10 W\"\nG = \"1 W/K\"\n[node]\na = { C = \"10 J/K\", T0 = \"20 degC\" \
+        }\n[boundary]\nair = { T = \"20 degC\" }\n[resistor]\nr = { from = \"a\", to = \"air\", G = \"G\" }\n\
+        [source]\ns = { into = \"a\", P = \"P\" }\n[case.hill]\nset = { P = \"30 W\" }\n[run]\nstop = \"60 s\"\n";
+    let folder = Folder::with("cases.toml", text);
+    let words = |ran: &str| ran.split_whitespace().collect::<Vec<_>>().join(" ");
+    for verb in
+        [&["steady", "cases.toml", "--case", "hill"][..], &["compare", "cases.toml", "--cases"]]
+    {
+        let ran = folder.run(&[verb, &["--set", "P=20W"]].concat()).exits(0);
+        let told = words(&format!("{}{}", ran.out, ran.err));
+        assert!(told.contains("--set P=20W replaces P=30 W of [case.hill]"), "{told}");
+        let ran = folder.run(&[verb, &["--set", "G=2W/K"]].concat()).exits(0);
+        assert!(!ran.err.contains("case_overridden"), "{}", ran.err);
+    }
+}

@@ -146,3 +146,59 @@ fn a_cycle_without_proof_says_why() {
     }
     assert!(ran.err.contains("certify::switches"), "{}", ran.err);
 }
+
+/// A monotone cubic through (0 s, 0 W), (50 s, 100 W) and (100 s, 0 W) is `a t + b t^2` with a = 4 W/s
+/// and b = -0.04 W/s^2: its slopes at the points are 4, 0 and -4 W/s (the formulas of SciPy's
+/// `PchipInterpolator`). A body of C = 100 J/K over G = 2 W/K, tau = 50 s, then is
+/// `alpha (1 - exp(-t / tau)) + beta t + gamma t^2` above the air, with gamma = b / G,
+/// beta = a / G - 2 tau gamma and alpha = -tau beta. The second signal repeats it.
+#[test]
+fn signals_of_cubics_are_proven() {
+    let text = |points: &str| {
+        format!(
+            "format = 1\n[signal]\nP = {{ {points}, interp = \"pchip\" }}\n[node]\nbody = {{ C = \"100 J/K\", \
+             T0 = \"20 degC\" }}\n[boundary]\nair = {{ T = \"20 degC\" }}\n[resistor]\nskin = {{ from = \
+             \"body\", to = \"air\", G = \"2 W/K\" }}\n[source]\nheat = {{ into = \"body\", P = \"P\" }}\n[limit]\n\
+             hot = {{ of = \"body.T\", below = \"70 degC\" }}\n[run]\nstop = \"100 s\"\noutput = {{ every = \"5 \
+             s\" }}\n"
+        )
+    };
+    let exact = |t: f64| {
+        let (tau, gamma) = (50.0, -0.02);
+        let beta = 2.0 - 2.0 * tau * gamma;
+        20.0 + tau * beta * (-t / tau).exp_m1() + beta * t + gamma * t * t
+    };
+    let points = "t = [\"0 s\", \"50 s\", \"100 s\"], v = [\"0 W\", \"100 W\", \"0 W\"]";
+    for (points, period) in
+        [(points.to_owned(), false), (format!("{points}, after_end = \"repeat\""), true)]
+    {
+        let text = text(&points).replace(
+            "stop = \"100 s\"",
+            if period { "stop = \"250 s\"" } else { "stop = \"100 s\"" },
+        );
+        let folder = Folder::with("cubic.toml", &text);
+        let ran = folder.run(&["run", "cubic.toml", "--certify", "--format", "csv", "--no-files"]);
+        assert!(!ran.err.contains("certify::"), "{}", ran.err);
+        let (headers, rows) = csv(&ran.out);
+        let column = |name: &str| headers.iter().position(|header| header == name).unwrap();
+        let (value, bound) = (column("body.T [degC]"), column("body.T.bound [K]"));
+        for row in rows {
+            assert!(row[bound] < 1e-4, "{row:?}");
+            let right = exact(row[0]);
+            assert!(row[0] > 100.0 || (row[value] - right).abs() <= row[bound] + 1e-12, "{row:?}");
+        }
+    }
+}
+
+/// A list of limits says limits, and one of requirements and results likewise.
+#[test]
+fn a_long_list_names_its_kind() {
+    let more: String = (0..6)
+        .map(|k| format!("l{k} = {{ of = \"body.T\", below = \"{} degC\" }}\n", 200 + k))
+        .collect();
+    let text = GROWS.replace("[run]\n", &format!("{more}[run]\n"));
+    let ran =
+        Folder::with("grow.toml", &text).run(&["run", "grow.toml", "--certify", "--no-files"]);
+    let words = ran.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("proven verdicts: `hot`, `near` and 6 more limits"), "{words}");
+}

@@ -132,3 +132,48 @@ fn a_written_answer_keeps_what_it_promises() {
         folder.read("body.toml")
     );
 }
+
+/// Two cells of a template, P over R into air of 20 degC: a value that a use or `--set` gives keeps
+/// the `±` of the template, `sd^2 = (P s_R R)^2 + (s_P P R)^2`.
+#[test]
+fn a_value_of_a_use_has_the_deviation_of_its_template() {
+    let text = "format = 1\n[param]\nR0 = \"0.5 K/W ± 10 %\"\n[template.cell]\nparam = { P = \"50 W ± 20 %\", \
+        R = { unit = \"K/W\" } }\nport = [\"base\"]\n[template.cell.node]\nx = { C = \"100 J/K\", T0 = \"20 \
+        degC\" }\n[template.cell.resistor]\nr = { from = \"x\", to = \"base\", R = \"R\" }\n\
+        [template.cell.source]\ns = { into = \"x\", P = \"P\" }\n[use.a]\ntemplate = \"cell\"\ncount = 3\n\
+        connect = { base = \"air\" }\nset = { R = \"R0\", P = [\"100 W\", \"200 W ± 0 W\", \"2 * 50 [W]\"] }\n\
+        [boundary]\nair = { T = \"20 degC\" }\n[run]\nstop = \"6000 s\"\n";
+    let folder = Folder::with("cells.toml", text);
+    let deviation = |more: &[&str], name: &str| {
+        let words =
+            ["run", "cells.toml", "--uncertainty", "linear", "--no-files", "--format", "json"];
+        let json = folder.run(&[&words, more].concat()).json();
+        let result = &json["uncertainty"]["results"][format!("{name}.T")];
+        result["end"]["sd"]["value"].as_f64().unwrap()
+    };
+    let both = |power: f64, share: f64| (0.5 * power) * (share * share + 0.01_f64).sqrt();
+    for (more, name, expected) in [
+        (&[][..], "a[1].x", both(100.0, 0.2)),
+        (&[], "a[2].x", both(200.0, 0.0)),
+        (&["--set", "a[1].P=300 W"], "a[1].x", both(300.0, 0.2)),
+        (&["--set", "a[1].P=300 W ± 0 W"], "a[1].x", both(300.0, 0.0)),
+    ] {
+        let found = deviation(more, name);
+        assert!((found / expected - 1.0).abs() < 1e-3, "{name} {more:?}: {found}, not {expected}");
+    }
+}
+
+/// 5 % of 0 W is 0 W, and no flat netlist says otherwise.
+#[test]
+fn a_percent_of_zero_is_told() {
+    let text = body("100 W ± 5 %");
+    // a plan cannot know 0 W to a part of it
+    let folder = Folder::with("body.toml", text.split("[size.skin]").next().unwrap());
+    let ran = folder.run(&["steady", "body.toml", "--set", "P=0 W"]).exits(0);
+    ran.says("units::relative_deviation").says("`P` is 0, and 5 % of it is 0 too");
+    let flat = folder.run(&["check", "--expand", "body.toml", "--set", "P=0 W"]).exits(0).out;
+    folder.write("flat.toml", &flat);
+    folder.run(&["check", "flat.toml"]).exits(0);
+    let ran = folder.run(&["steady", "body.toml", "--set", "P=0 ± 3 W"]).exits(0);
+    assert!(!ran.err.contains("units::relative_deviation"), "{}", ran.err);
+}

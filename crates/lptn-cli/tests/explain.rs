@@ -189,3 +189,21 @@ fn words_of_a_verdict_are_explained() {
     }
     folder.run(&["explain", "brokn"]).exits(2);
 }
+
+/// The words of a message find the page, in any order and case.
+#[test]
+fn several_words_find_their_page() {
+    let folder = Folder::empty();
+    for words in ["limit broken", "BROKEN limit", "limit not judged"] {
+        let ran = folder.run(&["explain", words]).exits(0);
+        let page =
+            if words.contains("judged") { "no value in this answer" } else { "exit code is 1" };
+        let text = ran.out.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(text.contains(page), "{words}: {text}");
+    }
+    folder
+        .run(&["explain", "deviation percent temperature"])
+        .exits(0)
+        .prints("units::relative_deviation");
+    folder.run(&["explain", "purple elephants"]).exits(2).says("explain::unknown");
+}

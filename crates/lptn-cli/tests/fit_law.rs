@@ -279,3 +279,16 @@ fn errors_in_another_kind_of_unit_are_refused() {
         folder.run(&["fit", "law", "points.csv", "--unweighted"]).prints("unweighted");
     }
 }
+
+/// Revolutions in `1/min` are a frequency for lptn; the help is the option that reads them.
+#[test]
+fn a_speed_in_revolutions_names_its_option() {
+    let folder = Folder::with("law.csv", "n [1/min],P [W]\n1000,2\n2000,4\n3000,6\n4000,8\n");
+    let ran = folder.run(&["fit", "law", "law.csv", "--no-files"]).exits(2);
+    ran.says("fit::law_column").says("--unit n=rpm");
+    folder
+        .run(&["fit", "law", "law.csv", "--no-files", "--speed", "n"])
+        .exits(2)
+        .says("--unit n=rpm");
+    folder.run(&["fit", "law", "law.csv", "--no-files", "--unit", "n=rpm"]).exits(0);
+}

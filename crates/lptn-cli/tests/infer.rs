@@ -241,3 +241,60 @@ fn neighbours_that_are_off_together_are_told_where_there_are_many() {
     let run = run.says("neighbours correlate by 0.1").says("than `drift`, ");
     assert!(!run.err.contains("`sigma` is larger"), "{}", run.err);
 }
+
+/// Two bodies apart from each other: P = 50 W on one is constant, Q on the other goes from 10 W to
+/// 40 W at 600 s. Each has its own ratio, and that of P is at most what chance reaches.
+#[test]
+fn each_signal_has_its_own_ratio() {
+    let tau = 0.3 * 1000.0;
+    let mut record = "t [s],one [degC],two [degC]\n".to_owned();
+    for k in 0..121 {
+        let (t, own) = (10.0 * f64::from(k), f64::from(k));
+        let noise = |n: f64| 0.1 * ((n * 0.618_033_988_75).fract() - 0.5);
+        let later = (t - 600.0).max(0.0);
+        let one = 25.0 - 15.0 * f64::exp_m1(-t / tau) + noise(own);
+        let two = 25.0 - 3.0 * f64::exp_m1(-t / tau) - 9.0 * f64::exp_m1(-later / tau);
+        writeln!(record, "{t},{one:.4},{:.4}", two + noise(own + 9.0)).unwrap();
+    }
+    let text = "format = 1\n[signal]\nP = \"50 W\"\nQ = \"10 W\"\n[default]\nT0 = \"25 degC\"\n[node]\n\
+        a = { C = \"1 kJ/K\" }\nb = { C = \"1 kJ/K\" }\n[boundary]\nroom = { T = \"25 degC\" }\n[resistor]\n\
+        r = { from = \"a\", to = \"room\", R = \"0.3 K/W\" }\ns = { from = \"b\", to = \"room\", R = \"0.3 \
+        K/W\" }\n[source]\nh = { into = \"a\", P = \"P\" }\ni = { into = \"b\", P = \"Q\" }\n[infer.both]\n\
+        data = \"record.csv\"\ncolumn = { one = \"a.T\", two = \"b.T\" }\nsigma = \"0.03 K\"\n\
+        find = [\"P\", \"Q\"]\n";
+    let folder = Folder::with("two.toml", text);
+    folder.write("record.csv", &record);
+    let ran = folder.run(&["infer", "two.toml"]).exits(0);
+    let words = ran.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("the record does not show that P changes"), "{}", ran.out);
+    assert!(words.contains("Q changes (likelihood ratio"), "{}", ran.out);
+    let signals = folder.run(&["infer", "two.toml", "--format", "json"]).exits(0).json();
+    let constant = signals["signals"]["P"]["constant"]["value"].as_f64().unwrap();
+    assert!((constant - 50.0).abs() < 0.5, "{constant}");
+}
+
+/// Eight rows of a thermocouple out of its range, which no run follows: the rows are named, not a
+/// node below absolute zero. Left out, they do not matter.
+#[test]
+fn rows_that_no_run_follows_are_named() {
+    let folder = folder(STUDY);
+    // the heat enters a core, which has to be far hotter and colder than the body
+    let core = "core = { C = \"500 J/K\", T0 = \"25 degC\" }\nbody = ";
+    let fit = "[resistor]\nfit = { from = \"core\", to = \"body\", R = \"0.1 K/W\" }\n";
+    let text = folder.read("body.toml").replace("body = ", core).replace("[resistor]\n", fit);
+    folder.write("body.toml", &text.replace("into = \"body\"", "into = \"core\""));
+    let rows = record();
+    let over = rows.lines().enumerate().map(|(i, line)| match (i, line.split(',').next()) {
+        (60..68, Some(t)) => format!("{t},1300,1300\n"),
+        _ => format!("{line}\n"),
+    });
+    folder.write("record.csv", &over.collect::<String>());
+    let ran = folder.run(&["infer", "body.toml"]);
+    let ran = ran.says("record::outlier").says("reads 1300 degC at 590 s and in 7 rows after it");
+    assert!(ran.code != Some(0) && ran.err.contains("infer::unfollowed"), "{}", ran.err);
+    assert!(ran.err.contains("column `ring`"), "{}", ran.err);
+    let dropped = format!("{STUDY}outliers = \"drop\"\n");
+    let text = folder.read("body.toml").replace(STUDY, &dropped);
+    folder.write("body.toml", &text);
+    folder.run(&["infer", "body.toml"]).exits(0).prints("P = ");
+}

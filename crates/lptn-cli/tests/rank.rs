@@ -10,6 +10,10 @@ const CHAIN: &str = "format = 1\n[param]\nG_skin = \"4 W/K\"\n[default]\nT0 = \"
     [resistor]\nfit = { from = \"core\", to = \"shell\", R = \"0.05 K/W\" }\nskin = { from = \
     \"shell\", to = \"air\", G = \"G_skin\" }\n[source]\nloss = { into = \"core\", P = \"100 W\" }\n";
 
+fn words(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 #[test]
 fn values_are_ranked_with_their_units() {
     let folder = Folder::with("chain.toml", CHAIN);
@@ -22,7 +26,6 @@ fn values_are_ranked_with_their_units() {
         "air.T      20 degC  +1 K              +1",
         "change first: 10 % less of loss.P makes core 3 K colder",
     ] {
-        let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(ran.out.lines().any(|shown| words(shown) == words(line)), "{line}\n{}", ran.out);
     }
     let ran = folder.run(&["rank", "chain.toml", "--of", "shell", "--set", "G_skin=2W/K"]).exits(0);
@@ -68,9 +71,10 @@ fn a_parameter_without_effect_is_listed() {
 }
 
 /// 10 % of 0 W is nothing, which is not "no effect": 1 W more into the core warms it by
-/// 0.05 K/W + 1 / (4 W/K), over steady states and over a run that is long enough.
+/// 0.05 K/W + 1 / (4 W/K), over steady states and over a run that is long enough. 1 kW is no small
+/// change: 0.001 kW is the largest power of ten that warms by 1 K at most.
 #[test]
-fn a_value_of_zero_is_changed_by_one_of_its_unit() {
+fn a_value_of_zero_is_changed_by_a_little_of_its_unit() {
     let text = CHAIN
         .replace("[param]\n", "[param]\nz = \"0 kW\"\nidle = \"0 W\"\n")
         .replace("P = \"100 W\"", "P = \"100 [W] + z\"")
@@ -78,12 +82,12 @@ fn a_value_of_zero_is_changed_by_one_of_its_unit() {
     let folder = Folder::with("chain.toml", &text);
     for over in ["steady", "run"] {
         let ran = folder.run(&["rank", "chain.toml", "--over", over]).exits(0);
-        ran.prints("`z` is 0, of which 10 % is nothing: +1 kW makes core 300 K warmer");
+        assert!(words(&ran.out).contains("z 0 kW +0.001 kW +0.3"), "{}", ran.out);
         let ran = folder.run(&["rank", "chain.toml", "--over", over, "--format", "csv"]).exits(0);
         let row = ran.out.lines().find(|line| line.starts_with("z,")).unwrap().to_owned();
-        assert!(row.starts_with("z,parameter,kW,+1 kW,0,"), "{row}");
+        assert!(row.starts_with("z,parameter,kW,+0.001 kW,0,"), "{row}");
         let effect: f64 = row.rsplit(',').next().unwrap().parse().unwrap();
-        assert!((effect - 300.0).abs() < 0.1, "{row}");
+        assert!((effect - 0.3).abs() < 1e-4, "{row}");
         assert!(ran.out.lines().any(|line| line == "idle,parameter,W,+1 W,0,0"), "{}", ran.out);
     }
     // nothing else is there to change
@@ -95,6 +99,30 @@ fn a_value_of_zero_is_changed_by_one_of_its_unit() {
         .run(&["rank", "alone.toml", "--over", "run", "--of", "a"])
         .exits(0)
         .prints("a responds to no value that is not 0");
+}
+
+/// 100 W over 2 W/K + 50 W/(m^2 K) A into air of 20 degC: with A = 1e-4 m^2 the body is
+/// 50 K - 100 W / (2.005 W/K) = 0.1247 K colder, and with 1 m^2 by 48.1 K, not by the 1250 K of the
+/// slope. A source of 0 W warms by 0.5 K/W. Both are elements or parameters that are off.
+#[test]
+fn what_is_off_is_ranked_by_a_change_that_its_slope_describes() {
+    let text = "format = 1\n[param]\nA_fin = \"0 m^2\"\n[node]\na = { C = \"100 J/K\", T0 = \"20 degC\" \
+        }\n[boundary]\nair = { T = \"20 degC\" }\n[resistor]\nr = { from = \"a\", to = \"air\", G = \"2 [W/K] \
+        + 50 [W/(m^2 K)] * A_fin\" }\n[source]\ns = { into = \"a\", P = \"100 W\" }\ns0 = { into = \"a\", P = \
+        \"0 W\" }\n";
+    let folder = Folder::with("fin.toml", text);
+    let ran = folder.run(&["rank", "fin.toml"]).exits(0);
+    assert!(words(&ran.out).contains("A_fin 0 m^2 +1e-4 m^2 -0.125"), "{}", ran.out);
+    assert!(words(&ran.out).contains("s0.P 0 W +1 W +0.5"), "{}", ran.out);
+    ran.prints("change first: 10 % more of r.G makes a 5 K colder");
+    let rows = folder.json("rank fin.toml").exits(0).json()["rows"].clone();
+    let effect = |name: &str| {
+        let row = rows.as_array().unwrap().iter().find(|row| row[0] == name).unwrap();
+        row.as_array().unwrap().last().unwrap().as_f64().unwrap()
+    };
+    let exact = 100.0 / 2.005 - 50.0;
+    assert!((effect("A_fin") / exact - 1.0).abs() < 0.005, "{rows}");
+    assert!((effect("s0.P") - 0.5).abs() < 1e-9, "{rows}");
 }
 
 /// Where something switches there are no derivatives by parameters, which is said.

@@ -12,7 +12,7 @@ use crate::hints;
 use crate::limits::MOST_PROBLEMS;
 use crate::open::open;
 use crate::options::CsvOptions;
-use crate::record::spikes::{spikes, told};
+use crate::record::outliers::{outliers, told};
 use crate::text::CsvText;
 
 /// An example of a header.
@@ -53,10 +53,14 @@ impl PlacedNumbers {
         place.unwrap_or_else(|| self.whole.clone())
     }
 
+    fn outliers(&self) -> Vec<usize> {
+        outliers(&self.numbers, self.ty.absolute)
+    }
+
     /// The first number that is far outside of those around it, as in a record, with the text on
     /// it.
     pub fn outlying(&self) -> Option<(usize, String)> {
-        let (unit, outliers) = (self.unit.as_ref()?, spikes(&self.numbers));
+        let (unit, outliers) = (self.unit.as_ref()?, self.outliers());
         let shown =
             |i: usize| format!("{} {}", format_short(unit.from_si(self.numbers[i])), unit.text);
         Some((*outliers.first()?, told((&outliers, self.numbers.len()), "", shown)?))

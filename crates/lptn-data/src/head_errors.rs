@@ -1,11 +1,11 @@
 //! Errors of the header of a CSV file, its rows and cells.
 
-use lptn_units::{Dimension, Type, suggest};
+use lptn_units::{Dimension, Type, Unit, suggest};
 
 use crate::diagnostic::Diagnostic;
 use crate::dialect::Dialect;
 use crate::head::{Asked, Head, Header, Row, Wrong, quoted};
-use crate::hints::{other_brackets, text_help, unit_option};
+use crate::hints::{other_brackets, revolutions_option, text_help, unit_option};
 use crate::numeral::Decimal;
 use crate::words::nearest;
 
@@ -15,8 +15,9 @@ impl Head {
         let name = &header.name;
         let message = format!("`C` is the unit of charge: is column `{name}` in degC?");
         Diagnostic::error(self.codes.unit, message).help(format!(
-            "write `{name} [degC]` in the header, or `units = {{ {} = \"degC\" }}` next to `csv`",
-            quoted(name)
+            "write `{name} [degC]` in the header, or `units = {{ {} = \"degC\" }}` next to `csv`{}",
+            quoted(name),
+            self.by_option(name, Type::ABSOLUTE_TEMPERATURE)
         ))
     }
 
@@ -70,8 +71,25 @@ impl Head {
             "" => format!("column `{name}` {is}, but {due} is needed"),
             words => format!("{words} must be {due}, but column `{name}` {is}"),
         };
-        let help = format!("{help}, for example `{name} [{}]`", wanted.usual_unit());
+        // a unit of another quantity is not a remedy
+        let option = match &header.unit {
+            None => self.by_option(name, wanted),
+            Some(unit) => Unit::parse(unit)
+                .ok()
+                .and_then(|unit| revolutions_option(name, &unit))
+                .filter(|_| self.codes.of_record && wanted == Type::of(Dimension::ANGULAR_VELOCITY))
+                .map_or_else(String::new, |option| format!(" (a command: `{option}`)")),
+        };
+        let help = format!("{help}, for example `{name} [{}]`{option}", wanted.usual_unit());
         Diagnostic::error(self.codes.unit, message).help(help)
+    }
+
+    /// The option of a command that gives a column of a record its unit.
+    fn by_option(&self, name: &str, wanted: Type) -> String {
+        match self.codes.of_record {
+            true => format!(" (a command: `{}`)", unit_option(name, wanted)),
+            false => String::new(),
+        }
     }
 
     /// The error of a column that is read and has no name.

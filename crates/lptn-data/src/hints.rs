@@ -1,6 +1,6 @@
 //! The codes of problems of a CSV file, and help for its cells.
 
-use lptn_units::{Type, Unit};
+use lptn_units::{Dimension, Type, Unit};
 
 /// The codes of the problems of a file.
 #[derive(Debug)]
@@ -82,7 +82,19 @@ pub(crate) fn other_brackets(name: &str) -> Option<(&str, &str)> {
 /// `wanted`.
 pub fn unit_option(name: &str, wanted: Type) -> String {
     let unit = other_brackets(name).map(|(_, unit)| unit.to_owned());
-    let statement = format!("{name}={}", unit.unwrap_or_else(|| wanted.usual_unit()));
+    option(name, &unit.unwrap_or_else(|| wanted.usual_unit()))
+}
+
+/// `--unit n=rpm`, for a column of a speed whose unit is that of a frequency, `1/min`.
+pub fn revolutions_option(name: &str, unit: &Unit) -> Option<String> {
+    let is = |scale: f64| (unit.scale / scale - 1.0).abs() < 1e-12;
+    let frequency = unit.ty == Type::of(Dimension::FREQUENCY);
+    let found = [(1.0, "rev/s"), (1.0 / 60.0, "rpm")].into_iter().find(|(scale, _)| is(*scale));
+    found.filter(|_| frequency).map(|(_, text)| option(name, text))
+}
+
+fn option(name: &str, unit: &str) -> String {
+    let statement = format!("{name}={unit}");
     let plain = |c: char| c.is_ascii_alphanumeric() || "_-.=/".contains(c);
     match statement.chars().all(plain) {
         true => format!("--unit {statement}"),

@@ -43,7 +43,7 @@ pub use decode::Encoding;
 pub use diagnostic::{Diagnostic, Label, Severity, arrange};
 pub use file::{CopyId, FileId, Files, Instance, Span, on_borders};
 pub use head::{Asked, CsvColumn, Wrong, fit};
-pub use hints::unit_option;
+pub use hints::{revolutions_option, unit_option};
 pub use limits::{
     MOST_BYTES, MOST_CSV_BYTES, MOST_PROBLEMS, ReadError, Rejected, read_bytes, read_named, shorten,
 };

@@ -151,6 +151,7 @@ impl<'r> Controller<'r> {
         let mut new = Self { raw, structure, fields, sense, out };
         let warms = new.warms(problems)?;
         new.pairs(problems)?;
+        new.constants(problems)?;
         new.numbers(problems)?;
         new.has_temperature(problems)?;
         if there.contains(&false) {
@@ -191,6 +192,32 @@ impl<'r> Controller<'r> {
             right &= self.fields.require("lag", problems).is_some();
         }
         right.then_some(())
+    }
+
+    /// Refuses values that change, if the states of the controller need them at the start: their
+    /// start, their size and the time between samples.
+    fn constants(&self, problems: &mut Vec<Diagnostic>) -> Option<()> {
+        let before = problems.len();
+        let with_states = self.fields.get("K_i").is_some() || self.is_sampled();
+        let keys = ["min", "max", "start", "sample"].into_iter().filter(|_| with_states);
+        for (key, raw) in keys.filter_map(|key| Some((key, self.fields.get(key)?))) {
+            let Some((name, timed)) = self.out.changing(raw) else { continue };
+            let message =
+                format!("{} has to be constant, but reads `{name}`", self.fields.owner.field(key));
+            let h = self.out.here;
+            let help = match key {
+                "min" | "max" => format!(
+                    "keep `{key}` constant and limit the output after the controller: `[value] \
+                     {h}_limited = \"{}({h}, ..)\"`, which elements then read instead of `{h}`",
+                    if key == "max" { "min" } else { "max" }
+                ),
+                _ => "give it a constant, or an expression of parameters".to_owned(),
+            };
+            let code =
+                ["network::depends_on_result", "network::depends_on_time"][usize::from(timed)];
+            problems.push(Diagnostic::wrong(code, message, &raw.span, help));
+        }
+        (problems.len() == before).then_some(())
     }
 
     /// The number of a key in SI units, if it is written as one.

@@ -12,8 +12,6 @@ use lptn_data::{
 use lptn_network::{Network, Parameters, RunSettings, Value};
 use lptn_units::Unit;
 
-use crate::assumed;
-use crate::case;
 use crate::csv_files::CsvFiles;
 use crate::elaborate::{Elaborated, elaborate};
 use crate::foster::{self, Chain};
@@ -36,6 +34,7 @@ use crate::syntax_error::NOT_CLOSED;
 use crate::template::{self, Expanded, Structure};
 use crate::uncertainty::{self, UncertaintyPlan};
 use crate::unlikely;
+use crate::{assumed, case};
 use crate::{controller, hydraulic};
 use crate::{enclosure, foreign};
 
@@ -101,6 +100,7 @@ impl Netlist {
         all.extend(gearbox::doubts(network, map, &self.gearboxes));
         all.extend(assumed::mean_conductivities(network, map));
         all.extend(unlikely::values(network, map));
+        all.extend(uncertainty::of_zero(network, map, &self.assigned));
         all.extend(
             self.initial
                 .iter()

@@ -8,7 +8,7 @@ use lptn_units::{Quantity, Type};
 use crate::fields::Owner;
 use crate::format::{Role, SectionDeclaration};
 use crate::names::ValueKind;
-use crate::place::{Place, Text, Wanted};
+use crate::place::{Given, Place, Text, Wanted};
 use crate::raw::{RawEntry, RawKind};
 
 use crate::work::Elaboration;
@@ -107,7 +107,12 @@ impl<'a> Elaboration<'a> {
         let ty = self.names.structure.type_of(&entry.key).cloned();
         let wanted = Wanted { ty: self.type_of(&entry.key), ..Wanted::parameter() };
         let before = self.problems.len();
-        let given = pending.text.take().and_then(|text| self.resolve(place, text, wanted));
+        let mut given = pending.text.take().and_then(|text| self.resolve(place, text, wanted));
+        if let Some(Given::Quantity(quantity)) = &mut given {
+            // as for `--set`
+            let of_template = self.names.structure.deviation_of(&entry.key);
+            quantity.deviation = quantity.deviation.or(of_template);
+        }
         if let Some(problem) = self.problems.get_mut(before) {
             *problem = of_type(problem.clone(), ty.as_ref());
         }

@@ -1,5 +1,7 @@
 //! Reads one value: a quantity, a number or an expression, with every mistake placed to the byte.
 
+use std::ops::Range;
+
 use lptn_data::{Diagnostic, Span};
 use lptn_network::Context;
 use lptn_units::{Dimension, Expression, Scope as _, Type, UnitError, UnitErrorKind};
@@ -7,7 +9,7 @@ use lptn_units::{Dimension, Expression, Scope as _, Type, UnitError, UnitErrorKi
 use crate::names::{Names, base};
 use crate::place::{Given, Place, Text, Wanted};
 use crate::raw::{RawEntry, RawKind, RawNetlist};
-use crate::value_help::parameter_help;
+use crate::value_help::{is_bare, parameter_help};
 use crate::work::Elaboration;
 
 impl Elaboration<'_> {
@@ -153,6 +155,19 @@ fn with_frequencies(
     told
 }
 
+/// Shows the lines of parameters that are numbers without a unit: one may be missing there.
+fn with_numbers(
+    (raw, all): (&RawNetlist, &Names),
+    names: &[(String, Range<usize>)],
+    told: Diagnostic,
+) -> Diagnostic {
+    let lines = names.iter().filter_map(|(name, _)| {
+        let entry = all.line(raw, name).filter(|_| all.is_parameter(name))?;
+        is_bare(entry).then(|| entry.value.span.clone())
+    });
+    lines.fold(told, |told, line| told.also(line, "a number without a unit"))
+}
+
 /// Shows the line of the parameter of an expression of one parameter or signal, which may contain
 /// the mistake.
 fn with_parameter(
@@ -172,7 +187,7 @@ fn with_parameter(
             | Kind::Operands { .. }
     );
     let names = if of_type { expression.names() } else { Vec::new() };
-    let [(name, _)] = names.as_slice() else { return diagnostic };
+    let [(name, _)] = names.as_slice() else { return with_numbers((raw, all), &names, diagnostic) };
     let Some(entry) = all.line(raw, name) else { return diagnostic };
     let diagnostic = diagnostic.also(entry.value.span.clone(), "its value");
     let alone = expression.text().trim() == name && all.is_parameter(name);

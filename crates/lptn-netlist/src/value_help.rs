@@ -26,6 +26,16 @@ pub(crate) fn parameter_help(entry: &RawEntry, ty: Type) -> Option<String> {
     None
 }
 
+/// True if a value is a number without a unit.
+pub(crate) fn is_bare(entry: &RawEntry) -> bool {
+    match &entry.value.kind {
+        RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => {
+            text.trim().parse::<f64>().is_ok()
+        }
+        _ => false,
+    }
+}
+
 /// The number and the unit of a text like `15 W/(m^2 K)`.
 pub(crate) fn number_and_unit(text: &str) -> Option<(f64, &str)> {
     let text = text.trim();

@@ -73,19 +73,45 @@ impl<'r> WrittenOut<'r> {
             return ValueKind::Parameter.section();
         };
         let Ok(expression) = Expression::parse(text) else { return ValueKind::Parameter.section() };
-        let is = |section: &str, name: &str| {
-            let full = self.structure.resolve(&value.span, name);
-            self.raw.elements(section).iter().any(|entry| entry.key == full)
-        };
         let names: Vec<String> = expression.names().into_iter().map(|(name, _)| name).collect();
-        let constant = |name: &String| name == "pi" || is(ValueKind::Parameter.section(), name);
-        let timed = |name: &String| name == "t" || is(ValueKind::Signal.section(), name);
+        let parameters = ValueKind::Parameter.section();
+        let constant = |name: &String| name == "pi" || self.is_in(parameters, (value, name));
+        let timed = |name: &String| self.is_timed((value, name));
         let kind = match () {
             () if names.iter().all(constant) => ValueKind::Parameter,
             () if names.iter().all(|name| constant(name) || timed(name)) => ValueKind::Signal,
             () => ValueKind::Value,
         };
         kind.section()
+    }
+
+    /// The first name in a value that changes, and true if it changes with time alone.
+    pub(crate) fn changing(&self, value: &RawValue) -> Option<(String, bool)> {
+        let RawKind::String { text, .. } = &value.kind else { return None };
+        let names = Expression::parse(text).ok()?.names().into_iter().map(|(name, _)| name);
+        let sections = [ValueKind::Value, ValueKind::State, ValueKind::Control];
+        let sections = sections.map(ValueKind::section);
+        let is_result = |name: &str| {
+            let of_node = name.strip_suffix(".T").is_some_and(|node| {
+                ["node", "boundary"].iter().any(|section| self.is_in(section, (value, node)))
+            });
+            of_node || sections.iter().any(|section| self.is_in(section, (value, name)))
+        };
+        names.into_iter().find_map(|name| {
+            let timed = self.is_timed((value, &name));
+            (timed || is_result(&name)).then_some((name, timed))
+        })
+    }
+
+    /// True for the time, and for a signal.
+    fn is_timed(&self, (value, name): (&RawValue, &str)) -> bool {
+        name == "t" || self.is_in(ValueKind::Signal.section(), (value, name))
+    }
+
+    /// True if a name in a value is that of an element of a section.
+    fn is_in(&self, section: &str, (value, name): (&RawValue, &str)) -> bool {
+        let full = self.structure.resolve(&value.span, name);
+        self.raw.elements(section).iter().any(|entry| entry.key == full)
     }
 
     /// A table of texts, such as a state.

@@ -55,13 +55,20 @@ pub struct Influence {
     pub field: Field,
     /// The value in SI units.
     pub value: f64,
-    /// Change of the temperature: in K for a value hundredfold of 1 % larger (`v dT/dv`), or in K/K
-    /// if the value is a temperature itself.
+    /// Change of the temperature: in K for a value hundredfold of 1 % larger (`v dT/dv`), in K/K if
+    /// the value is a temperature itself, or in K per SI unit if it is 0 ([`Influence::is_zero`]).
     pub change: f64,
     /// Its dimension.
     pub ty: Type,
     /// True if it is a temperature, so that `change` is in K/K.
     pub absolute: bool,
+}
+
+impl Influence {
+    /// True if no share of the value is a change, so that `change` is in K per SI unit.
+    pub fn is_zero(&self) -> bool {
+        !self.absolute && self.value.abs() <= 0.0
+    }
 }
 
 /// The response of one temperature of a steady state.
@@ -279,11 +286,14 @@ fn is_of_whole(part: &Influence) -> bool {
 }
 
 /// The same values of the conductors of one body as one: their changes add up, and their areas.
+/// A share of a value that is 0 in some of them changes only the others.
 fn wholes(parts: Vec<Influence>) -> Vec<Influence> {
     let mut found: Vec<Influence> = Vec::new();
     for part in parts {
         let same = |other: &&mut Influence| (other.of, other.field) == (part.of, part.field);
         match found.iter_mut().rev().find(same) {
+            Some(whole) if whole.is_zero() && !part.is_zero() => *whole = part,
+            Some(whole) if part.is_zero() && !whole.is_zero() => {}
             Some(whole) => {
                 whole.change += part.change;
                 if part.field.key() == "area" {

@@ -57,8 +57,9 @@ pub struct Ranking {
     pub at: Option<f64>,
     /// Effects of parameters, the largest first; those without effect have 0.
     pub parameters: Vec<Influence>,
-    /// Parameters whose value is 0, so that no share of it is a change. Their `change` is the slope
-    /// of the temperature in K per SI unit.
+    /// Values of parameters and elements that are 0, so that no share of them is a change, in the
+    /// order of the network. Their `change` is the slope of the temperature in K per SI unit, and
+    /// elements without a slope are left out.
     pub zeros: Vec<Influence>,
     /// Why parameters are not ranked, if the network has no derivatives by them.
     pub not_ranked: Option<String>,
@@ -103,7 +104,11 @@ impl Ranking {
         let feedback = Feedback::of(system, state);
         let slowest = feedback.as_ref().and_then(|_| Modes::of(system, Some(state), 1).ok());
         let slowest = slowest.and_then(|modes| Some(modes.modes().first()?.rate));
-        let (parameters, zeros) = of_parameters(network, known, temperature);
+        let (parameters, mut zeros) = of_parameters(network, known, temperature);
+        let (of_zero, elements): (Vec<_>, Vec<_>) =
+            adjoint.influences()?.into_iter().partition(Influence::is_zero);
+        zeros
+            .extend(of_zero.into_iter().filter(|zero| zero.change.is_finite() && has_effect(zero)));
         Ok(Self {
             node,
             temperature,
@@ -112,7 +117,7 @@ impl Ranking {
             zeros,
             not_ranked,
             fixed,
-            elements: sorted(adjoint.influences()?, temperature),
+            elements: sorted(elements, temperature),
             feedback,
             slowest,
             differences: None,
@@ -198,14 +203,9 @@ fn of_parameters(
     temperature: f64,
 ) -> (Vec<Influence>, Vec<Influence>) {
     let all = slopes.map(|(id, slope)| of_parameter(network, id, slope));
-    let (zeros, others): (Vec<_>, Vec<_>) = all.partition(is_zero);
+    let (zeros, others): (Vec<_>, Vec<_>) = all.partition(Influence::is_zero);
     let zeros = zeros.into_iter().filter(|zero| !zero.change.is_nan()).collect();
     (all_sorted(others, temperature), zeros)
-}
-
-/// True if no share of a value is a change.
-fn is_zero(influence: &Influence) -> bool {
-    !influence.absolute && influence.value.abs() <= 0.0
 }
 
 fn of_parameter(network: &Network, id: ParameterId, slope: f64) -> Influence {
@@ -219,7 +219,7 @@ fn of_parameter(network: &Network, id: ParameterId, slope: f64) -> Influence {
         ty,
         absolute: ty.absolute,
     };
-    if !of.absolute && !is_zero(&of) {
+    if !of.absolute && !of.is_zero() {
         of.change *= value;
     }
     of
@@ -272,7 +272,8 @@ pub fn has_effect(influence: &Influence) -> bool {
     influence.change.abs() > 0.0
 }
 
-/// Change of the temperature in K if a value is 10 % larger, or a temperature 1 K higher.
+/// Change of the temperature in K if a value is 10 % larger, or a temperature 1 K higher; of a value
+/// that is not 0.
 pub fn effect(influence: &Influence) -> f64 {
     influence.change * if influence.absolute { 1.0 } else { 0.1 }
 }

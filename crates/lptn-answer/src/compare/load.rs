@@ -12,6 +12,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::listener::Listener;
+use crate::overridden;
 
 /// Every file with every variant of it.
 pub(super) fn jobs(
@@ -70,7 +71,7 @@ pub fn load(file: &Path, variant: &Variant, belief: &Belief<'_>) -> Loaded {
     let has: Vec<bool> = set.iter().map(has_it).collect();
     let own: Vec<String> =
         set.iter().zip(&has).filter(|(_, has)| **has).map(|(text, _)| text.clone()).collect();
-    let outcome = input.netlist.set(&own);
+    let outcome = overridden::replace(&mut input.netlist, &input.set, &own);
     let input = outcome.map(|()| input).map_err(Failure::from);
     Loaded { file: name, label: variant.label.clone(), input, has }
 }

@@ -13,13 +13,16 @@ const MOST: usize = 12;
 impl RankAnswer {
     pub(super) fn figure(&self) -> Figure {
         let panels = self.effects().into_iter().filter(|(_, influences)| !influences.is_empty());
-        let panels = panels.map(|(name, influences)| self.panel(&format!("{name}s"), influences));
+        let panels = panels.map(|(name, influences)| self.panel(&format!("{name}s"), &influences));
         let panels = panels.collect();
-        let note = "for 10 % more of each value, 1 K more of a temperature".to_owned();
+        let note =
+            "for 10 % more of each value, 1 K more of a temperature; of 0, 1 of its unit or \
+                    less, for 1 K at most"
+                .to_owned();
         Figure { title: self.input.title(), note, panels }
     }
 
-    fn panel(&self, name: &str, influences: &[Influence]) -> Panel {
+    fn panel(&self, name: &str, influences: &[&Influence]) -> Panel {
         let shown = &influences[..influences.len().min(MOST)];
         let names = shown.iter().map(|influence| self.name(influence)).collect();
         let axes = (Axis::linear(self.node(), difference(&self.unit)), Axis::names(name, names));

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, Files};
 use lptn_network::{Item, NodeId};
+use lptn_report::significant;
 use lptn_solve::{AdjointError, Influence};
 use lptn_study::{RankError, Ranking, effect};
 use lptn_units::Unit;
@@ -142,22 +143,38 @@ impl RankAnswer {
         (unit.from_si(influence.value), unit.text.clone())
     }
 
-    /// The change of a value that is ranked: a share, or one of its unit if there is none.
+    /// The change of a value that is ranked: a share, or a small part of its unit if there is none.
     fn change(&self, influence: &Influence) -> String {
-        match influence.absolute {
-            true => "+1 K".to_owned(),
-            false if influence.value.abs() > 0.0 => "+10 %".to_owned(),
-            false => format!("+1{}", spaced(&self.value(influence).1)),
+        match (influence.absolute, influence.is_zero()) {
+            (true, _) => "+1 K".to_owned(),
+            (_, false) => "+10 %".to_owned(),
+            (_, true) => {
+                let (step, unit) = (self.step(influence), self.value(influence).1);
+                format!("+{}{}", significant(step, 3), spaced(&unit))
+            }
+        }
+    }
+
+    /// The change of a value of 0, in its unit: the largest of 1, 0.1, 0.01 and so on that changes
+    /// the temperature by at most 1 K, so that the slope describes it.
+    fn step(&self, zero: &Influence) -> f64 {
+        let decades = (zero.change * self.scale(zero)).abs().max(1.0).log10().ceil();
+        1.0 / 10_f64.powf(decades)
+    }
+
+    /// The unit of a value that is not a temperature, in SI units.
+    fn scale(&self, influence: &Influence) -> f64 {
+        match influence.of {
+            Item::Parameter(id) => self.input.unit_of(id).scale,
+            _ => 1.0,
         }
     }
 
     /// The change of the temperature by that, in the unit of its differences.
     fn effect(&self, influence: &Influence) -> f64 {
-        let kelvin = match influence.of {
-            Item::Parameter(id) if !influence.absolute && influence.value.abs() <= 0.0 => {
-                influence.change * self.input.unit_of(id).scale
-            }
-            _ => effect(influence),
+        let kelvin = match influence.is_zero() {
+            true => influence.change * self.scale(influence) * self.step(influence),
+            false => effect(influence),
         };
         kelvin / self.unit.scale
     }

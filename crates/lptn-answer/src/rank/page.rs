@@ -2,11 +2,11 @@
 
 use std::io;
 
-use lptn_network::{Item, list_of_names};
+use lptn_network::{Item, list_of};
 use lptn_plot::Figure;
 use lptn_report::{Json, Page, Report, Rows, Text, TextTable, duration, shortened, significant};
 use lptn_solve::{Influence, Table};
-use lptn_study::{SiValue, effect, has_effect};
+use lptn_study::{Ranking, SiValue, effect, has_effect};
 use serde_json::{Value, json};
 
 use super::RankAnswer;
@@ -30,9 +30,9 @@ impl RankAnswer {
         format!("{}: {temperature} {} {when}", self.node(), self.unit.text)
     }
 
-    fn table(&self, heading: &str, influences: &[Influence]) -> TextTable {
-        let rows: Vec<&Influence> = influences.iter().take(MOST_NODES).collect();
-        TextTable::of(&rows)
+    fn table(&self, heading: &str, influences: &[&Influence]) -> TextTable {
+        let rows = &influences[..influences.len().min(MOST_NODES)];
+        TextTable::of(rows)
             .left(heading, |i| shortened(&self.name(i), NAME_WIDTH))
             .right("value", |i| {
                 let (value, unit) = self.value(i);
@@ -78,7 +78,6 @@ impl RankAnswer {
             notes.push(format!("parameters are not ranked: {why}"));
         }
         notes.extend(self.without_effect());
-        notes.extend(self.of_zero());
         notes.extend(self.fixed());
         if let Some(why) = &self.ranking.differences {
             notes.push(format!("by differences of runs, since {why}"));
@@ -98,23 +97,7 @@ impl RankAnswer {
         let idle = all.filter(|influence| !has_effect(influence));
         let names: Vec<String> = idle.map(|influence| self.name(influence)).collect();
         (!names.is_empty())
-            .then(|| format!("no effect on {}: {}", self.node(), list_of_names(&names)))
-    }
-
-    /// Parameters whose value is 0, each with the effect of one of its unit.
-    fn of_zero(&self) -> impl Iterator<Item = String> {
-        let zeros = self.ranking.zeros.iter().filter(|influence| has_effect(influence));
-        zeros.map(|zero| {
-            let (effect, node) = (self.effect(zero), self.node());
-            let (by, way) = (effect.abs(), if effect > 0.0 { "warmer" } else { "colder" });
-            format!(
-                "`{}` is 0, of which 10 % is nothing: {} makes {node} {} {} {way}",
-                self.name(zero),
-                self.change(zero),
-                significant(by, 3),
-                difference(&self.unit),
-            )
-        })
+            .then(|| format!("no effect on {}: {}", self.node(), list_of(&names, "parameters")))
     }
 
     /// Parameters that are not ranked, because a part of them cannot be added.
@@ -129,7 +112,7 @@ impl RankAnswer {
         (!names.is_empty()).then(|| {
             format!(
                 "not ranked: {}, as no value next to theirs is allowed; compare others with --set",
-                list_of_names(&names)
+                list_of(&names, "parameters")
             )
         })
     }
@@ -160,18 +143,23 @@ impl RankAnswer {
         format!("10 % {more} of {name} makes {} {by} {unit} colder", self.node())
     }
 
-    /// The values that change something: parameters, then values of elements.
-    pub(super) fn effects(&self) -> [(&'static str, &[Influence]); 2] {
-        let parameters = &self.ranking.parameters;
-        let some = parameters.partition_point(has_effect);
-        [("parameter", &parameters[..some]), ("element", &self.ranking.elements)]
+    /// The values that change something: parameters, then values of elements; those of 0 are last.
+    pub(super) fn effects(&self) -> [(&'static str, Vec<&Influence>); 2] {
+        let Ranking { parameters, elements, zeros, .. } = &self.ranking;
+        let (of_parameters, of_elements): (Vec<_>, Vec<_>) =
+            zeros.iter().partition(|zero| is_parameter(zero));
+        let [of_parameters, of_elements] = [(parameters, of_parameters), (elements, of_elements)]
+            .map(|(all, zeros)| {
+                all.iter().chain(zeros).filter(|i| has_effect(i)).collect::<Vec<_>>()
+            });
+        [("parameter", of_parameters), ("element", of_elements)]
     }
 
     fn all(&self) -> Vec<(&'static str, &Influence)> {
-        let parameters = self.ranking.parameters.iter().chain(&self.ranking.zeros);
-        let parameters = parameters.map(|i| ("parameter", i));
-        let elements = self.ranking.elements.iter();
-        parameters.chain(elements.map(|i| (kind(i), i))).collect()
+        let Ranking { parameters, elements, zeros, .. } = &self.ranking;
+        let of = |own: bool| zeros.iter().filter(move |zero| is_parameter(zero) == own);
+        let all = parameters.iter().chain(of(true)).chain(elements).chain(of(false));
+        all.map(|i| (kind(i), i)).collect()
     }
 
     fn listed(&self) -> Table {
@@ -193,7 +181,7 @@ impl Page for RankAnswer {
         text.line(self.answering());
         let how = "--format csv and json have all";
         for (heading, influences) in self.effects() {
-            some_of(&mut text, self.table(heading, influences), (influences.len(), how));
+            some_of(&mut text, self.table(heading, &influences), (influences.len(), how));
         }
         text.notes(self.notes());
         text.section().sentence("", &self.verdict());
@@ -236,10 +224,15 @@ impl Page for RankAnswer {
     }
 }
 
+fn is_parameter(influence: &Influence) -> bool {
+    matches!(influence.of, Item::Parameter(_))
+}
+
 fn kind(influence: &Influence) -> &'static str {
     match influence.of {
-        lptn_network::Item::Boundary(_) => "boundary",
-        lptn_network::Item::Source(_) => "source",
+        Item::Parameter(_) => "parameter",
+        Item::Boundary(_) => "boundary",
+        Item::Source(_) => "source",
         _ => "path",
     }
 }

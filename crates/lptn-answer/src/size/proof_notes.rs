@@ -1,7 +1,7 @@
 //! The proof of an answer in words and members.
 
 use lptn_netlist::Diagnostic;
-use lptn_network::list_of_names;
+use lptn_network::list_of;
 use lptn_report::rounded_up;
 use lptn_study::SiValue;
 use serde_json::{Value, json};
@@ -40,7 +40,7 @@ impl Kept {
     fn these(&self, proof: &Proof, wanted: Option<bool>) -> Option<String> {
         let these = self.all().into_iter().filter(|i| proof.is_proven(*i) == wanted);
         let names: Vec<String> = these.map(|i| self.text(i)).collect();
-        (!names.is_empty()).then(|| list_of_names(&names))
+        (!names.is_empty()).then(|| list_of(&names, "requirements"))
     }
 
     /// Doubts in the proof of the answer.

@@ -2,7 +2,7 @@
 
 use lptn_analysis::LimitResult;
 use lptn_netlist::{Diagnostic, Netlist};
-use lptn_network::{Item, Network, NodeId, list_of_names};
+use lptn_network::{Item, Network, NodeId, list_of, list_of_names};
 use lptn_report::{duration, significant};
 use lptn_solve::{Others, SteadyState};
 use lptn_units::Unit;
@@ -28,7 +28,7 @@ pub fn inputs_vary(
     names.sort_unstable();
     names.dedup();
     let which =
-        if names.is_empty() { String::new() } else { format!(", {}", list_of_names(&names)) };
+        if names.is_empty() { String::new() } else { format!(", {}", list_of(&names, "inputs")) };
     let judged = if limits.iter().any(LimitResult::is_open) {
         ", and limits that depend on them are not judged"
     } else {

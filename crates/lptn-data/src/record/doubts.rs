@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::file::Span;
-use crate::record::spikes::{spikes, told};
+use crate::record::outliers::{self, told};
 use crate::record::{Record, RecordColumn, Saturation};
 use lptn_units::format_short as short;
 
@@ -21,11 +21,12 @@ const LEAST_SHARE: f64 = 0.01;
 /// A range of fewer steps of the instrument than this does not show an end.
 const FEWEST_STEPS: f64 = 12.0;
 
-/// The value at which a column seems to be at its end, and the warnings about its values.
+/// The value at which a column seems to be at its end, unless `outliers` are rows of it, and the
+/// warnings about its values.
 pub(crate) fn of(
     record: &Record,
     column: &RecordColumn,
-    text: &str,
+    (outliers, text): (&[usize], &str),
 ) -> (Option<Saturation>, Vec<Diagnostic>) {
     let rows: Vec<usize> =
         (0..column.values.len()).filter(|&i| !column.values[i].is_nan()).collect();
@@ -39,7 +40,8 @@ pub(crate) fn of(
     }
     warnings.extend(jump(column, &rows, &line));
     warnings.extend(implausible(column));
-    let saturation = saturation(record, column, &rows);
+    let saturation = saturation(record, column, &rows)
+        .filter(|found| outliers.binary_search(&found.first).is_err());
     warnings.extend(saturation.map(|found| saturated(record, column, (found, &line))));
     (saturation, warnings)
 }
@@ -49,7 +51,8 @@ pub(crate) fn outliers(record: &Record, column: &RecordColumn) -> Vec<usize> {
     let rows: Vec<usize> =
         (0..record.time.len()).filter(|&row| !column.values[row].is_nan()).collect();
     let values: Vec<f64> = rows.iter().map(|&row| column.values[row]).collect();
-    spikes(&values).into_iter().map(|place| rows[place]).collect()
+    let places = outliers::outliers(&values, column.unit.ty.absolute);
+    places.into_iter().map(|place| rows[place]).collect()
 }
 
 /// The warning about outliers.
@@ -71,8 +74,8 @@ pub(crate) fn outlying(
     let message = format!("column `{}` {said}{done}", column.name);
     let warning = Diagnostic::warning("record::outlier", message)
         .at(record.line_in(text, first), if rows.len() == 1 { "" } else { "the first" });
-    let help = "a broken wire, or a digit lost? a fit leaves such values out with \
-        `outliers = \"drop\"` in [fit], or `--drop-outliers` of lptn fit step";
+    let help = "a broken wire, a channel that is stuck, or a digit lost? a fit leaves such values \
+        out with `outliers = \"drop\"` in [fit] or [infer], or `--drop-outliers` of lptn fit step";
     Some(if dropped { warning } else { warning.help(help) })
 }
 

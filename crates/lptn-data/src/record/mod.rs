@@ -17,15 +17,18 @@
 //! | a jump by 273.15 K, or to 1.8 times the value + 32 | a warning: the unit seems to change |
 //! | an extreme value kept after a steep rise or fall | a warning: the sensor may be at its end |
 //! | a value far outside of those before and after it | a warning; a gap on request |
+//! | a temperature that jumps to a number and repeats it | the same |
 //! | a column that does not change | a warning |
 
 mod cells;
 mod columns;
 mod doubts;
 mod lines;
+pub(crate) mod outliers;
 mod rows;
 mod sheet;
-pub(crate) mod spikes;
+mod spikes;
+mod stuck;
 mod times;
 
 pub use lines::{RecordLine, RecordLines, RecordRow};
@@ -191,9 +194,9 @@ pub fn read_text(text: &CsvText, query: &RecordQuery) -> Result<Record, Vec<Diag
     let gaps = doubts::gaps(&record, text);
     record.warnings.extend(gaps);
     for i in 0..record.columns.len() {
-        let (saturation, warnings) = doubts::of(&record, &record.columns[i], text);
-        record.columns[i].saturation = saturation;
         let outliers = doubts::outliers(&record, &record.columns[i]);
+        let (saturation, warnings) = doubts::of(&record, &record.columns[i], (&outliers, text));
+        record.columns[i].saturation = saturation;
         record.warnings.extend(doubts::outlying(
             &record,
             i,

@@ -22,30 +22,13 @@ const ALONE: f64 = 0.1;
 const FEWEST: usize = 6;
 const SPAN: f64 = 30.0;
 
-/// The places of outliers, in order; `values` has no gaps.
+/// The places of values that are far from those around them.
 pub(crate) fn spikes(values: &[f64]) -> Vec<usize> {
     match values.len() {
         ..FEWEST => Vec::new(),
         few if few < 3 * SIDE => (1..few - 1).filter(|&i| is_far(values, i)).collect(),
         _ => scattered(values),
     }
-}
-
-/// The text on outliers among `count` values: the first of them, `at` its time, the next value that
-/// is not one, and the number of others.
-pub(crate) fn told(
-    (outliers, count): (&[usize], usize),
-    at: &str,
-    shown: impl Fn(usize) -> String,
-) -> Option<String> {
-    let first = *outliers.first()?;
-    let near = (first + 1..count).find(|place| !outliers.contains(place));
-    let near = near.or_else(|| (0..first).next_back()).unwrap_or(first);
-    let more = match outliers.len() {
-        1 => String::new(),
-        all => format!("; {} more are as far off", all - 1),
-    };
-    Some(format!("reads {}{at}, but {} next to it{more}", shown(first), shown(near)))
 }
 
 /// True if a value is far outside of all others, whatever their time history.
@@ -125,7 +108,7 @@ fn step(values: &[f64]) -> f64 {
     if least.is_finite() { least } else { 0.0 }
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
+pub(crate) fn median(mut values: Vec<f64>) -> f64 {
     let middle = values.len() / 2;
     if values.is_empty() {
         return 0.0;

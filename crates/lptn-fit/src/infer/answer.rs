@@ -13,7 +13,7 @@ use crate::infer::reference::{InferObserver, Reference};
 use crate::infer::rounds::{Settled, settle};
 use crate::infer::strength::Strength;
 use crate::infer::surprise;
-use crate::infer::task::{InferTask, Uncertain};
+use crate::infer::task::{Drift, InferTask, Uncertain};
 use crate::kalman::Augmented;
 
 /// Infers time histories from a record.
@@ -81,17 +81,17 @@ fn told(task: &InferTask, settled: &Settled) -> Inferred {
     }
 }
 
-/// Each time history if none changes, with the log-likelihood then.
+/// Each time history if it does not change and the others are as likely as possible, with the
+/// log-likelihood then.
 fn still(
     task: &InferTask,
     (reference, model): (&Reference, &Model),
     strength: &Strength,
 ) -> Vec<(Known, f64)> {
-    let still = strength.still();
-    let (smoother, _) = model.smoothed(&still);
-    let (state, likely) = (smoother.filter().state(), smoother.filter().log_likelihood());
     let last = coordinates(task, reference, model.nodes.len() - 1);
     let one = |(j, sought): (usize, &crate::infer::Sought)| {
+        let (smoother, _) = model.smoothed(&constant((task, model), strength, j));
+        let (state, likely) = (smoother.filter().state(), smoother.filter().log_likelihood());
         let (moved, deviation) = state.of(&[(model.states.course(j), 1.0)]);
         let there = last[j] + moved;
         let known = match sought.positive {
@@ -101,6 +101,18 @@ fn still(
         (known, likely)
     };
     task.sought.iter().enumerate().map(one).collect()
+}
+
+/// The most likely walks and jumps of the other time histories if one is constant. The noises are
+/// those of `strength`.
+fn constant((task, model): (&InferTask, &Model), strength: &Strength, j: usize) -> Strength {
+    let mut held = task.clone();
+    (held.sought[j].intensity, held.sought[j].jumps) = (Some(0.0), false);
+    let columns = held.run.columns.iter_mut().zip(&strength.noises);
+    columns.for_each(|(column, noise)| column.sigma = Some(noise.white));
+    held.drift = Drift::Known { deviation: 0.0, time: 1.0 };
+    let start = strength.constant(j).revived(&held, model);
+    jumps::most_likely((&held, model), (&start, true))
 }
 
 /// Requested values of the states at every moment.

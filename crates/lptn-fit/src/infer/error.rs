@@ -3,7 +3,7 @@
 use lptn_analysis::RunError;
 use lptn_assembly::ChangeError;
 use lptn_solve::{TransientError, Unsolved};
-use lptn_units::{Class, EvalError};
+use lptn_units::{Class, EvalError, format_short as short};
 
 use crate::network::NetworkFitError;
 
@@ -67,6 +67,22 @@ pub enum InferError {
     Noise { column: String } = "infer::noise",
         format!("rows are answered as they come, so the noise of column `{column}` must be given"),
         help "write the scatter of one value, for example `sigma = \"0.2 K\"`";
+    /// The estimates follow the record to a state that no run reaches. Near it this column changes
+    /// from one value to the other within a row, which ends at this time in s.
+    Unfollowed {
+        column: String,
+        time: f64,
+        values: [f64; 2],
+        unit: String,
+        error: Box<TransientError>
+    } = "infer::unfollowed",
+        format!(
+            "no run follows column `{column}` from {} to {} {unit}, which it reads at {} s: {error}",
+            short(values[0]), short(values[1]), short(*time)
+        ),
+        help "`outliers = \"drop\"` leaves out readings that are far from their neighbours: empty the \
+            cells of others that are wrong",
+        class Class::Numbers;
     /// The time histories did not converge in this number of rounds.
     NotSettled { rounds: usize } = "infer::not_settled",
         format!("the estimates have not converged after {rounds} rounds, each linear near the one \

@@ -40,6 +40,7 @@ mod strength;
 mod study;
 mod surprise;
 mod task;
+mod unfollowed;
 
 pub use answer::infer;
 pub use error::InferError;

@@ -9,6 +9,7 @@ use crate::infer::prior::Begins;
 use crate::infer::reference::{InferObserver, Moments, Reference};
 use crate::infer::strength::Strength;
 use crate::infer::task::InferTask;
+use crate::infer::unfollowed;
 use crate::network::{Certainty, unknown_input};
 
 /// Largest number of rounds.
@@ -77,7 +78,7 @@ pub(crate) fn settle(
             next = moved((task, &begins), (&reference, &model), &smoothed, share);
             there = at(&next, &sizes);
         }
-        (model, reference) = (there?, next);
+        (model, reference) = (there.map_err(|error| unfollowed::named(task, error))?, next);
     }
     Err(InferError::NotSettled { rounds: MOST })
 }

@@ -63,6 +63,14 @@ impl Strength {
         Self { intensities, noises: self.noises.clone(), jumps: Vec::new() }
     }
 
+    /// The same without walk and jumps of one time history.
+    pub(crate) fn constant(&self, course: usize) -> Self {
+        let mut one = self.clone();
+        one.intensities[2 * course..][..2].fill(0.0);
+        one.jumps.retain(|jump| jump.course != course);
+        one
+    }
+
     /// The same with white noise only.
     pub(crate) fn white(&self, sigma: impl Fn(&Noise) -> f64) -> Self {
         let noises = self.noises.iter().map(|noise| Noise::white(sigma(noise))).collect();

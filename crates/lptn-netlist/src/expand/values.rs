@@ -55,8 +55,10 @@ impl Writer<'_> {
         {
             return string(program.text().trim());
         }
-        let set = self.origin.overrides().deviation(id);
-        match (set.or(parameter.deviation), parameter.ty.absolute) {
+        let set = self.origin.overrides().deviation(id).or(parameter.deviation);
+        // no share of 0 is a deviation
+        let set = set.filter(|spread| number.abs() > 0.0 || spread.sigma(number) > 0.0);
+        match (set, parameter.ty.absolute) {
             (None, true) => point(number),
             (None, false) => quantity(number, parameter.ty),
             (Some(spread), true) => uncertain(&celsius(number), "degC", (spread, number)),

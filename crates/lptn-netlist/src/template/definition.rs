@@ -2,7 +2,7 @@
 
 use lptn_data::{Diagnostic, nearest};
 use lptn_network::is_name;
-use lptn_units::{RESERVED, Type, Unit, parse_quantity};
+use lptn_units::{RESERVED, Spread, Type, Unit, parse_quantity};
 
 use super::{TEMPLATE, USE};
 use crate::fields::{Fields, Owner, wrong_shape};
@@ -49,6 +49,8 @@ pub(super) struct Parameter<'r> {
     pub(super) default: bool,
     /// Its type, if written: that of its value, or of its unit.
     pub(super) ty: Option<Type>,
+    /// The `±` of its value.
+    pub(super) deviation: Option<Spread>,
 }
 
 impl<'r> Template<'r> {
@@ -138,7 +140,10 @@ impl<'r> Template<'r> {
                 let raw = fields.require("unit", problems)?;
                 let text = fields.text("unit", raw, problems)?;
                 return match Unit::parse(text) {
-                    Ok(unit) => Some(Parameter { entry, default: false, ty: Some(unit.ty) }),
+                    Ok(unit) => {
+                        let ty = Some(unit.ty);
+                        Some(Parameter { entry, default: false, ty, deviation: None })
+                    }
                     Err(error) => {
                         problems.push(
                             Place { owner: &fields.owner, key: "unit", raw }.unit_error(&error),
@@ -154,8 +159,9 @@ impl<'r> Template<'r> {
                 return None;
             }
         };
-        let ty = parse_quantity(text, None).ok().map(|quantity| quantity.ty);
-        Some(Parameter { entry, default: true, ty })
+        let known = parse_quantity(text, None).ok();
+        let deviation = known.as_ref().and_then(|quantity| quantity.deviation);
+        Some(Parameter { entry, default: true, ty: known.map(|quantity| quantity.ty), deviation })
     }
 
     /// Errors of the names inside.

@@ -202,6 +202,9 @@ impl<'r, 'w> Maker<'r, 'w> {
             if let (Some(ty), true) = (parameter.ty, value.is_some()) {
                 self.structure.types.insert(key.clone(), (ty, written.value.span.clone()));
             }
+            if let (Some(deviation), true) = (parameter.deviation, value.is_some()) {
+                self.structure.deviations.insert(key.clone(), deviation);
+            }
             let value = match (value, own) {
                 (Some(value), Some(own)) if mentions(value) => copied_value(value, own),
                 (Some(value), _) => value.clone(),

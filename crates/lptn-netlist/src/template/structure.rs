@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use foldhash::{HashMap, HashSet};
 use lptn_data::{CopyId, Files, Span};
-use lptn_units::Type;
+use lptn_units::{Spread, Type};
 
 use crate::raw::{RawEntry, RawValue};
 
@@ -24,6 +24,8 @@ pub(crate) struct Structure {
     pub(super) connections: Vec<Connection>,
     /// The types of parameters of instances that are set, and the places of the types.
     pub(super) types: HashMap<String, (Type, Span)>,
+    /// The `±` in the template of parameters of instances that are set.
+    pub(super) deviations: HashMap<String, Spread>,
     /// Uses that could not be read: their elements are missing.
     pub(super) lost: Vec<String>,
     /// The area in m^2 of the surface at which a path of an enclosure ends, and its place.
@@ -250,6 +252,11 @@ impl Structure {
     /// The required type of a parameter of an instance, and the place of that type.
     pub(crate) fn type_of(&self, parameter: &str) -> Option<&(Type, Span)> {
         self.types.get(parameter)
+    }
+
+    /// The `±` that a value of a parameter of an instance has if none is written with it.
+    pub(crate) fn deviation_of(&self, parameter: &str) -> Option<Spread> {
+        self.deviations.get(parameter).copied()
     }
 
     /// The number of instances of the use of this full name.

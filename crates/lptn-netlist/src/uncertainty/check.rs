@@ -1,12 +1,13 @@
 //! Checks that the joint knowledge of parameters fits the network.
 
-use lptn_data::{Diagnostic, Span};
-use lptn_network::{Network, Parameters};
+use lptn_data::{Diagnostic, Severity, Span};
+use lptn_network::{Field, Item, Network, Parameters};
 use lptn_units::{Distribution, Spread, Unit};
 
 use super::file::Found;
 use super::{UncertaintyPlan, WrittenCorrelation};
 use crate::posterior::{Believed, PosteriorQuantity, problem};
+use crate::source_map::SourceMap;
 
 /// The posterior, which has to fit the network; written correlations go to `parameters`.
 pub(crate) fn known(
@@ -159,4 +160,28 @@ pub(crate) fn joint(
         "two values that follow a third one closely follow each other too: the matrix of all \
          correlations has to be positive definite",
     ))
+}
+
+/// A note for each parameter that is 0 and whose deviation is a part of its value, as after `--set`
+/// or of a template.
+pub(crate) fn of_zero<'a>(
+    network: &'a Network,
+    map: &'a SourceMap,
+    parameters: &Parameters,
+) -> impl Iterator<Item = Diagnostic> + 'a {
+    let uncertain = parameters.uncertain().into_iter();
+    let exact = uncertain.filter(|(id, spread)| spread.sigma(network.parameter_value(*id)) <= 0.0);
+    exact.map(|(id, spread)| {
+        let item = Item::Parameter(id);
+        let name = network.name_of(item);
+        let unit = network.parameters()[id.index()].ty.dimension.si_unit();
+        let part = match spread.percent() {
+            Some(percent) => format!("{percent} % of it"),
+            None => "a factor on it".to_owned(),
+        };
+        let message = format!("`{name}` is 0, and {part} is 0 too: it counts as exact");
+        let help = format!("give it a deviation in its unit, `--set \"{name}=0 ± 1 {unit}\"`");
+        let note = Diagnostic::error("units::relative_deviation", message).help(help);
+        Diagnostic { severity: Severity::Note, ..note.at(map.get(item, Field::Value), "") }
+    })
 }

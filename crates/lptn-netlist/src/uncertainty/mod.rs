@@ -4,7 +4,7 @@ mod check;
 mod file;
 mod read;
 
-pub(crate) use check::{check, joint, known};
+pub(crate) use check::{check, joint, known, of_zero};
 pub(crate) use file::{Found, load, only_known};
 use read::POSTERIOR;
 

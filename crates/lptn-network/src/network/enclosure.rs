@@ -4,7 +4,7 @@
 //! Laws and expressions are evaluated on bounds in place of numbers ([`lptn_units::Bounded`]), from
 //! the same lines. A law that decides by a value has no bounds.
 
-use lptn_units::{Bounded, Scalar, Taylor};
+use lptn_units::{Bounded, Scalar, Table1, Taylor};
 
 use crate::evaluation::Evaluation;
 use crate::id::{BoundaryId, ConductorId, SignalId, SourceId};
@@ -70,12 +70,28 @@ impl Network {
                     Course::Expression(value) => {
                         value.on(&slots, &mut stack).unwrap_or_else(|_| unknown())
                     }
-                    course if course.is_straight() => line(first[place], last[place]),
-                    _ => unknown(),
+                    Course::Curve { points, .. } if !signal.course.is_straight() => {
+                        let offset = signal.course.offset(inside);
+                        on_cubic(points, (from - offset, to - offset), line)
+                    }
+                    _ => line(first[place], last[place]),
                 };
             }
             InputBounds { slots, stack }
         })
+    }
+
+    /// The points inside `(start, stop)` in s of signals that are joined by cubics, in the order of the
+    /// signals. Nothing bends there, but each cubic ends. Signals with points beyond number, which
+    /// no run accepts, are left out.
+    pub fn ends_of_cubics(&self, start: f64, stop: f64) -> Vec<f64> {
+        let mut times = Vec::new();
+        let cubic = |course: &&Course| !course.is_straight() && course.is_monotone();
+        let courses = self.signals().iter().map(|signal| &signal.course).filter(cubic);
+        courses.for_each(|course| {
+            let _ = course.points((start, stop), false, &mut times);
+        });
+        times
     }
 
     /// Bounds on the heat in W that the two ends of a conductor receive while the vertices (nodes,
@@ -163,6 +179,20 @@ impl Network {
 
 fn unknown() -> Bounded {
     Bounded::from(Taylor::between(&[[f64::NEG_INFINITY, f64::INFINITY]]))
+}
+
+/// A curve of cubics over times in s that reach beyond neither its first nor its last point, except
+/// by rounding; or that lie outside of them, with its first or last value.
+fn on_cubic(points: &Table1, (from, to): (f64, f64), line: Line) -> Bounded {
+    let (knots, values) = (points.knots(), points.values());
+    let (first, last) = (knots[0], knots[knots.len() - 1]);
+    let slack = 1e-12 * (last - first).max(first.abs().max(last.abs()));
+    Bounded::from(match (from, to) {
+        _ if to <= first + slack => Taylor::constant(values[0]),
+        _ if from >= last - slack => Taylor::constant(values[values.len() - 1]),
+        _ if from < first - slack || to > last + slack => return unknown(),
+        _ => points.enclose(line(from.max(first), to.min(last)).taylor()),
+    })
 }
 
 /// A straight line along the way, from its values at both ends.

@@ -13,7 +13,7 @@ use crate::network::flow::{Failed, name, place};
 const MOST: usize = Formula::MOST_FIELDS;
 
 /// One value of a law, and the change of heat with it in W: `v dq/dv`, a hundred times the change
-/// for 1 %; for an absolute temperature `dq/dv`, in W/K.
+/// for 1 %; for an absolute temperature `dq/dv`, in W/K, and for a value of 0 in W per SI unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ValueChange<H> {
     /// The value in SI units.
@@ -112,7 +112,7 @@ fn seeded(at: &mut At<'_, Slope>, law: &Law, first: usize) -> Result<(Vec<f64>, 
         let mine = values.iter_mut().zip(fields).enumerate().skip(first).take(PASS);
         for (k, (value, field)) in mine {
             own.push(value.value);
-            *value = match field.ty.absolute {
+            *value = match field.ty.absolute || value.value.abs() <= 0.0 {
                 true => *value + Slope::variable(0.0, k - first),
                 false => *value * Slope::variable(1.0, k - first),
             };

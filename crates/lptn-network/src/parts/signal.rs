@@ -116,7 +116,7 @@ impl Course {
 
     /// The start of the repetition that `segment` lies in, less that of the first; 0 without
     /// repetition.
-    fn offset(&self, segment: f64) -> f64 {
+    pub(crate) fn offset(&self, segment: f64) -> f64 {
         match self.after() {
             AfterEnd::Repeat(period) => self.repetition(segment, period) * period,
             AfterEnd::Error | AfterEnd::Hold => 0.0,

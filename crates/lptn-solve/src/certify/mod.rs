@@ -80,10 +80,11 @@ pub enum Uncertified {
         format!("`{name}` {because}: its error has no proven bound"),
         help "run it without --certify: `lptn verify` compares it with a finer run",
         class lptn_units::Class::No;
-    /// The law of an element has no bounds; its name and the time in s.
+    /// The law of an element has no bounds, as between two regimes or near a division by zero; its name and the time in s.
     Law { name: String, time: f64 } = "certify::law",
         format!(
-            "the heat of `{name}` has no bounds at {} s: its law decides by a value there",
+            "the heat of `{name}` has no bounds at {} s: its law decides by a value there, or has \
+             none nearby",
             lptn_units::format_six(*time)
         ),
         help "run it without --certify: `lptn verify` compares it with a finer run",
@@ -229,7 +230,7 @@ pub(crate) fn is_covered(system: &ThermalSystem) -> Result<(), Uncertified> {
         return node(id, "has a capacity that follows a state");
     }
     match system.algebraic().first() {
-        Some(id) => node(*id, "has no capacity and a path whose heat is not linear"),
+        Some(id) => node(*id, "has no capacity, and a stream or a heat that is not linear in it"),
         None => Ok(()),
     }
 }

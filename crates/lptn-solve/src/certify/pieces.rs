@@ -68,6 +68,9 @@ pub(crate) struct Pieces<'a> {
     inside: f64,
     /// Length in s that the next piece may have.
     length: f64,
+    /// The times in s, ascending, at which results may bend or jump, and at which a cubic of a signal
+    /// ends.
+    breaks: Vec<f64>,
     /// The slopes of a system without elements, which are the same everywhere.
     constant: Option<Vec<f64>>,
     /// The way at the end of the last piece.
@@ -95,6 +98,11 @@ impl<'a> Pieces<'a> {
             slopes
         });
         constant.iter().for_each(|slopes| bound.set_matrix(slopes));
+        let cubics = system.network().ends_of_cubics(from, rows.end());
+        let mut breaks = results.as_ref().map_or(Vec::new(), |results| results.breaks().to_vec());
+        breaks.extend(cubics);
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup();
         Ok(Self {
             system,
             scope: system.network().evaluation(),
@@ -109,6 +117,7 @@ impl<'a> Pieces<'a> {
             course: Course::new(start.len()),
             inside: from,
             length: 0.0,
+            breaks,
             constant,
             arrived: start.to_vec(),
             samples: std::array::from_fn(|_| start.to_vec()),
@@ -124,7 +133,7 @@ impl<'a> Pieces<'a> {
     }
 
     /// Takes the part of a step from `from` to `to` in s, with comparisons of time as they are at
-    /// `inside`, and controls in these states. Pieces end at the bends and jumps of results.
+    /// `inside`, and controls in these states. Pieces end at the breaks.
     pub(super) fn step(
         &mut self,
         (span, inside): ((f64, f64), f64),
@@ -132,8 +141,7 @@ impl<'a> Pieces<'a> {
         state_at: &mut StateAt<'_>,
     ) -> Result<(), Uncertified> {
         self.follow((span.0, inside), controls)?;
-        let breaks = self.results.as_ref().map_or(&[][..], Results::breaks);
-        for (part, begins) in pieces(breaks, span) {
+        for (part, begins) in pieces(&self.breaks, span) {
             if begins {
                 self.flush_all(part.0)?;
             }

@@ -43,6 +43,11 @@ impl<'a> Rows<'a> {
         self.times.len()
     }
 
+    /// The time of the last row in s, the end of the run.
+    pub(super) fn end(&self) -> f64 {
+        self.times[self.times.len() - 1]
+    }
+
     pub(super) fn time(&self, row: usize) -> f64 {
         self.times[row]
     }

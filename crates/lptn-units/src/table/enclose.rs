@@ -44,8 +44,9 @@ fn part(knots: &[f64], argument: &Taylor, outside: Outside) -> Option<Part> {
 }
 
 impl Table1 {
-    /// Bounds on its value for an argument with known bounds.
-    pub(crate) fn enclose(&self, x: Taylor) -> Taylor {
+    /// Bounds on its value for an argument with known bounds: with Taylor coefficients between two
+    /// knots, without them over several.
+    pub fn enclose(&self, x: Taylor) -> Taylor {
         match part(&self.x, &x, self.outside) {
             None => Taylor::unknown(),
             Some(Part::Held(end)) => Taylor::constant(self.y[end]),

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lptn_fit::law::{LawError, Points, Variable};
-use lptn_netlist::{DataSheet, Diagnostic, Files, RecordColumn, read_sheet};
+use lptn_netlist::{DataSheet, Diagnostic, Files, RecordColumn, read_sheet, revolutions_option};
 use lptn_units::{Dimension, Type, suggest};
 
 use super::FitLawQuestion;
@@ -25,6 +25,13 @@ pub(super) struct Data {
     pub(super) time_constant: Option<Vec<f64>>,
     /// Standard errors of rise, time constant and power, if the file has all of them.
     pub(super) errors: Option<[Vec<f64>; 3]>,
+}
+
+/// The option that reads a frequency as the speed that is wanted, as an alternative.
+fn revolutions(column: &RecordColumn, wanted: Dimension) -> String {
+    let option = revolutions_option(&column.name, &column.unit);
+    let option = option.filter(|_| wanted == Dimension::ANGULAR_VELOCITY);
+    option.map_or(String::new(), |option| format!(", or read it as revolutions by `{option}`"))
 }
 
 /// A sheet, for looking up its columns.
@@ -74,10 +81,11 @@ impl<'a> Lookup<'a> {
         if holds(column, wanted) {
             return Ok(column);
         }
-        let wanted = Type::of(wanted).with_article();
-        let message =
-            format!("column `{name}` is {}, but {wanted} is needed", column.unit.ty.with_article());
-        Err(self.refused(Diagnostic::error("record::unit", message).at(column.span.clone(), "")))
+        let (own, due) = (column.unit.ty.with_article(), Type::of(wanted).with_article());
+        let message = format!("column `{name}` is {own}, but {due} is needed");
+        let problem = Diagnostic::error("record::unit", message).at(column.span.clone(), "");
+        let option = revolutions(column, wanted);
+        Err(self.refused(problem.help(format!("name another column{option}"))))
     }
 
     /// The column that an option names, or the only one of this dimension.
@@ -97,7 +105,10 @@ impl<'a> Lookup<'a> {
                 let message = format!("no column contains {what}");
                 let problem = Diagnostic::error("fit::law_column", message);
                 let problem = problem.at(self.sheet.header.clone(), "no unit here fits");
-                Err(self.refused(problem.help(format!("give it a header like `{unit}`"))))
+                let turns = self.of(Dimension::FREQUENCY).into_iter().next();
+                let option = turns.map_or(String::new(), |column| revolutions(column, wanted));
+                let help = format!("give it a header like `{unit}`{option}");
+                Err(self.refused(problem.help(help)))
             }
             [first, second, ..] => {
                 let message =

@@ -22,9 +22,40 @@ pub(crate) fn explain(args: &ExplainArgs, console: &Console) -> Result<Exit, Fai
             Explained { codes: said(text).into_iter().collect(), named: true }
         }
         None => Explained { codes, named: false },
-        Some(text) => asked(bare(text), codes)?,
+        Some(text) => match in_words(text, &codes) {
+            found if found.is_empty() => asked(bare(text), codes)?,
+            found => Explained { named: found.len() == 1, codes: found },
+        },
     };
     console.show(&explained, args.printed.format)
+}
+
+/// The codes of several words, such as "limit broken": the words of verdicts among them, else the
+/// codes whose names and summaries have all of them.
+fn in_words(text: &str, codes: &[Code]) -> Vec<Code> {
+    let lower = text.to_lowercase();
+    let parts = |text: &'_ str| -> Vec<String> {
+        text.split(|c: char| !c.is_alphanumeric())
+            .filter(|word| !word.is_empty())
+            .map(str::to_owned)
+            .collect()
+    };
+    let asked = parts(&lower);
+    if text.contains("::") || !text.trim().contains(' ') {
+        return Vec::new();
+    }
+    let of_verdict: Vec<Code> = codes::words()
+        .filter(|code| parts(code.code).iter().all(|word| asked.contains(word)))
+        .collect();
+    if !of_verdict.is_empty() {
+        return of_verdict;
+    }
+    let has_all = |code: &&Code| {
+        let known =
+            parts(&format!("{} {}", code.code.replace('_', " "), code.summary()).to_lowercase());
+        asked.iter().all(|word| known.contains(word))
+    };
+    codes.iter().filter(has_all).cloned().collect()
 }
 
 /// The code of `error[units::syntax]`.
