@@ -148,7 +148,7 @@ fn is_deep(value: &Value) -> bool {
 /// one box, every node follows in a folded section.
 fn drawing(input: &Input, (title, unit): (&str, &Unit), state: Option<&Snapshot>) -> Vec<Section> {
     let drawn = |grouping: Grouping| {
-        let view = View { title: "", grouping, unit, state };
+        let view = View { title: "", grouping, unit, state, marked: state.is_some() };
         diagram(&input.netlist.network, &view)
     };
     let diagram = drawn(Grouping::Auto);

@@ -211,3 +211,39 @@ fn print_cuts_nothing() {
     }
     assert!(text.contains("\"sundials\""), "the manifest is not printed");
 }
+
+/// A page in the dark theme is printed on white, and its margins of 15 mm stay empty: at 50 dots an
+/// inch they are 29.5 dots wide.
+#[test]
+fn print_is_light_and_inside_its_margins() {
+    let folder = fan();
+    let page = folder.read("fan.html");
+    folder.write("dark.html", &page.replacen("<html", "<html data-theme=\"dark\"", 1));
+    let address = address(&folder, "dark.html");
+    let print = ["--print-to-pdf=dark.pdf", "--no-pdf-header-footer", &address];
+    if browser(&folder, &print).is_none() {
+        return;
+    }
+    let mut drawer = Command::new("pdftoppm");
+    let drawer = drawer.args(["-r", "50", "-gray", "dark.pdf"]).current_dir(folder.path());
+    let Ok(drawn) = drawer.output() else {
+        assert!(std::env::var_os("LPTN_REQUIRE_ORACLES").is_none(), "pdftoppm is required");
+        return;
+    };
+    let (mut rest, mut pages) = (drawn.stdout.as_slice(), 0);
+    while !rest.is_empty() {
+        // P5, width and height, 255, then a byte for each dot
+        let head: Vec<&[u8]> = rest.splitn(4, |byte| *byte == b'\n').collect();
+        let size = std::str::from_utf8(head[1]).unwrap();
+        let size: Vec<usize> = size.split(' ').map(|number| number.parse().unwrap()).collect();
+        let (dots, next) = head[3].split_at(size[0] * size[1]);
+        for row in dots.chunks(size[0]) {
+            let edges = row[..28].iter().chain(&row[size[0] - 28..]);
+            assert!(edges.copied().all(|dot| dot > 250), "something in a margin");
+        }
+        let mean = dots.iter().map(|dot| f64::from(*dot)).sum::<f64>() / dots.len() as f64;
+        assert!(mean > 200.0, "a page is dark: {mean}");
+        (rest, pages) = (next, pages + 1);
+    }
+    assert!(pages > 1);
+}

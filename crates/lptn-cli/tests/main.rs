@@ -35,6 +35,7 @@ mod fit_compare;
 mod fit_law;
 mod fit_law_folder;
 mod fit_network;
+mod fit_pages;
 mod fit_pictures;
 mod fit_step;
 mod foster;

@@ -405,3 +405,32 @@ fn pages_of_studies_open_in_a_browser() {
         }
     }
 }
+
+/// The colour of a node is that of its position in the file, in curves, circuit, heat flows and
+/// table, whatever is chosen.
+#[test]
+fn a_node_has_one_colour_on_a_page() {
+    let text = "format = 1\n[node]\nfirst = { C = '9 J/K', T0 = '20 degC' }\nsecond = { C = '9 J/K', T0 = \
+        '20 degC' }\n[boundary]\nair = { T = '20 degC' }\n[resistor]\njoint = { from = 'first', to = \
+        'second', R = '1 K/W' }\nskin = { from = 'second', to = 'air', R = '2 K/W' }\n[source]\nheat = \
+        { into = 'first', P = '9 W' }\n[run]\nstop = '60 s'\n";
+    let folder = Folder::with("body.toml", text);
+    for chosen in [vec![], vec!["--select", "second.T", "--select", "air.T"]] {
+        let run = ["run", "body.toml", "--no-files", "--report=page.html"];
+        folder.run(&[&run[..], &chosen].concat()).exits(0);
+        let page = folder.read("page.html");
+        let charts = charts(&page);
+        let curves = charts[0]["panels"][0]["curves"].as_array().unwrap();
+        for (i, name) in ["first", "second", "air"].into_iter().enumerate() {
+            let key = format!("series{i}");
+            if let Some(curve) = curves.iter().find(|curve| curve["name"] == name) {
+                assert_eq!(curve["ink"], key.as_str(), "{name}");
+            }
+            // a dot in the circuit and one in the heat flows, at the end and in steady state
+            let is_dot =
+                |line: &&str| line.contains("a4.5 4.5") && line.contains(&format!("f-{key}"));
+            assert_eq!(page.lines().filter(is_dot).count(), 4, "{name}");
+        }
+        assert!(page.contains("class=\"spark c-series1\""));
+    }
+}

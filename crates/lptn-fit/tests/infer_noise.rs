@@ -42,7 +42,7 @@ fn covered(case: Case, records: u32) -> [f64; 3] {
         let mut wide: Vec<f64> =
             found.courses[0].band.iter().map(|band| 0.5 * (band.ends.1 - band.ends.0)).collect();
         wide.sort_by(f64::total_cmp);
-        let column = found.columns[0];
+        let column = &found.columns[0];
         let odd = column.neighbours > 0.2 || column.rms > 1.3;
         (inside.count(), wide[wide.len() / 2], odd)
     });

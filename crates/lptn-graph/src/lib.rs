@@ -6,9 +6,11 @@
 //! other programs. A [`GridField`] is the temperature of the cells of a grid, drawn slice by slice
 //! or written for ParaView.
 
+mod direction;
 mod dot;
 mod field;
 mod groups;
+mod labels;
 mod layout;
 mod legend;
 mod mermaid;
@@ -18,6 +20,7 @@ mod read;
 mod ring;
 mod sankey;
 mod slice;
+mod supplies;
 mod symbols;
 mod vtk;
 mod words;
@@ -28,7 +31,7 @@ pub use groups::{Grouping, MOST_PLACES};
 pub use mermaid::mermaid;
 pub use model::{Diagram, Link, Place, PlaceRole, Scales, Supply, Switching, Target};
 pub use picture::{MOST_DRAWN, TooMany, scene};
-pub use read::{View, diagram};
+pub use read::{View, diagram, series};
 pub use sankey::{Band, Bar, BarRole, HeatFlows, NoSankey, sankey};
 pub use slice::{Shades, slice};
 pub use vtk::vtk;

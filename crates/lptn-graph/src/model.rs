@@ -40,6 +40,8 @@ pub struct Place {
     pub stored: Option<f64>,
     /// For a group, the heat that streams between its members bring in W, positive into them.
     pub within: f64,
+    /// The place of its curve over time, whose ink marks it: see [`series`](crate::series()).
+    pub series: Option<usize>,
 }
 
 /// The role of a place.

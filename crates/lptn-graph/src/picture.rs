@@ -9,10 +9,13 @@ use lptn_plot::{FIELD, Ink, Scene};
 use lptn_report::shortened;
 use lptn_units::Problem;
 
+use crate::direction;
+use crate::labels::{ARROW, ARROW_GAP, LETTERS, LINE, NAME, SMALL, VALUE, element_block};
 use crate::layout::{Arranged, Element, Point, Room, arrange};
 use crate::legend;
-use crate::model::{Diagram, Link, Place, PlaceRole, Scales, Supply};
-use crate::symbols::{self, CAPACITY, HALF, REACH, SOURCE, WIRE};
+use crate::model::{Diagram, Link, Place, PlaceRole, Scales};
+use crate::supplies::{Supplies, supplies};
+use crate::symbols::{self, CAPACITY, HALF, REACH, WIRE};
 
 /// More boxes than this cannot be read in any picture.
 pub const MOST_DRAWN: usize = 600;
@@ -46,22 +49,12 @@ impl Problem for TooMany {
     }
 }
 
-/// Sizes of letters: names, values, small print.
-const NAME: f64 = 13.0;
-const VALUE: f64 = 12.0;
-const SMALL: f64 = 11.0;
-
-/// From one line of text to the next.
-const LINE: f64 = 15.0;
-
 /// Around everything.
 const MARGIN: f64 = 24.0;
 
-/// Letters of a name that are shown; a reader who points at it sees all.
-const LETTERS: usize = 30;
-
-/// Rows of columns are as wide as this at most, in pixels.
-const MOST_WIDTH: f64 = 2000.0;
+/// Rows of columns are about as wide as this at most, in pixels: a page is 960 pixels wide, so that
+/// names of 13 pixels are printed with 10 at least.
+const MOST_WIDTH: f64 = 1250.0;
 
 /// The widest arrow of a heat flow.
 const WIDEST: f64 = 6.0;
@@ -74,20 +67,8 @@ pub fn scene(diagram: &Diagram) -> Result<Scene, TooMany> {
     if diagram.places.len() > MOST_DRAWN {
         return Err(TooMany { boxes: diagram.places.len() });
     }
-    let places: Vec<Room> =
-        diagram.places.iter().map(|place| place_block(diagram, place)).collect();
-    let ends = ends(diagram);
-    let links = diagram.links.iter().zip(&ends).map(|(link, (from, to))| Element {
-        block: link_block(link, diagram.scales.as_ref()),
-        from: Some(*from),
-        to: *to,
-    });
-    let sources = diagram.sources.iter().map(|source| Element {
-        block: source_block(source, diagram.scales.as_ref()),
-        from: None,
-        to: source.into,
-    });
-    let arranged = arrange(&places, &links.chain(sources).collect::<Vec<_>>(), MOST_WIDTH);
+    let (ends, supplies) = (direction::ends(diagram), supplies(diagram));
+    let arranged = arranged(diagram, &ends, &supplies);
     let head = if diagram.title.is_empty() { 0.0 } else { 30.0 };
     let legend = legend::legend(diagram);
     let wide = legend.width.max(width(&diagram.title, 16.0, true)).max(arranged.size.0);
@@ -96,25 +77,30 @@ pub fn scene(diagram: &Diagram) -> Result<Scene, TooMany> {
     let title = Text::new(diagram.title.clone(), (MARGIN, MARGIN + 12.0), 16.0, Ink::Text);
     scene.write(title.bold());
     let corner = (MARGIN + (wide - arranged.size.0) / 2.0, MARGIN + head);
-    Drawing { diagram, scene: &mut scene, corner }.draw(&arranged, &ends);
+    Drawing { diagram, scene: &mut scene, corner }.draw(&arranged, (&ends, &supplies));
     legend::draw(&mut scene, diagram, (MARGIN, size.1 - MARGIN - legend.height));
     Ok(scene)
 }
 
-/// The places left and right of each path: heat goes to boundaries if there are sources, else from
-/// the first end to the second.
-fn ends(diagram: &Diagram) -> Vec<(usize, usize)> {
-    let boundary = |place: usize| diagram.places[place].role == PlaceRole::Boundary;
-    let turned = |link: &&Link| {
-        !link.stream && !diagram.sources.is_empty() && boundary(link.from) && !boundary(link.to)
-    };
-    let links = diagram.links.iter();
-    links
-        .map(|link| match Some(link).filter(turned) {
-            Some(_) => (link.to, link.from),
-            None => (link.from, link.to),
-        })
-        .collect()
+/// The positions of everything: the order of places is that of every picture of the network.
+pub(crate) fn arranged(
+    diagram: &Diagram,
+    ends: &[(usize, usize)],
+    supplies: &[Supplies<'_>],
+) -> Arranged {
+    let places: Vec<Room> =
+        diagram.places.iter().map(|place| place_block(diagram, place)).collect();
+    let links = diagram.links.iter().zip(ends).map(|(link, (from, to))| Element {
+        block: link_block(link, diagram.scales.as_ref()),
+        from: Some(*from),
+        to: *to,
+    });
+    let sources = supplies.iter().map(|all| Element {
+        block: all.block(diagram.scales.as_ref()),
+        from: None,
+        to: all.into,
+    });
+    arrange(&places, &links.chain(sources).collect::<Vec<_>>(), MOST_WIDTH)
 }
 
 /// The lines of text of a place.
@@ -146,13 +132,13 @@ fn half_box(diagram: &Diagram, place: &Place) -> Point {
 fn place_block(diagram: &Diagram, place: &Place) -> Room {
     let (pin, tall) = half_box(diagram, place);
     let capacity = capacity(place);
-    let beside = capacity.map_or(0.0, |text| CAPACITY.1 + 7.0 + width(text, VALUE, false));
+    let label = capacity.map_or(0.0, |text| (width(text, VALUE, false) / 2.0).ceil());
     let below = match &place.role {
         PlaceRole::Boundary => 9.0,
-        _ if capacity.is_some() => CAPACITY.0,
+        _ if capacity.is_some() => CAPACITY.0 + LINE,
         _ => 0.0,
     };
-    Room { pin, half: pin.max(beside) + 4.0, above: tall, below: tall + below }
+    Room { pin, half: pin.max(label) + 4.0, above: tall, below: tall + below }
 }
 
 /// The lines below the symbol of a path: its value, and its kind if the symbol does not show it.
@@ -168,45 +154,6 @@ fn link_block(link: &Link, scales: Option<&Scales>) -> Room {
     element_block(&link.name, &below, (flow.as_deref(), HALF, REACH))
 }
 
-fn source_block(source: &Supply, scales: Option<&Scales>) -> Room {
-    let below = source_words(source, scales);
-    element_block(&source.name, &below, (None, SOURCE, SOURCE))
-}
-
-/// The value of a source; if its heat in the state that is shown differs, also that heat.
-fn source_words(source: &Supply, scales: Option<&Scales>) -> Vec<String> {
-    let heat = scales.zip(source.heat).map(|(scales, heat)| {
-        let sign = if heat < 0.0 { "-" } else { "" };
-        format!("{sign}{}", scales.heat(heat))
-    });
-    match heat {
-        Some(heat) if source.value.starts_with('P') => vec![source.value.clone(), heat],
-        _ => vec![source.value.clone()],
-    }
-}
-
-/// The arrow of a heat flow and the gap before its words.
-const ARROW: f64 = 34.0;
-const ARROW_GAP: f64 = 6.0;
-
-fn element_block(
-    name: &str,
-    below: &[String],
-    (flow, pin, reach): (Option<&str>, f64, f64),
-) -> Room {
-    let name = width(&shortened(name, LETTERS), NAME, false);
-    let texts = below.iter().map(|text| width(text, VALUE, false));
-    let flow_width = flow.map_or(0.0, |text| ARROW + ARROW_GAP + width(text, VALUE, true));
-    let wide = texts.fold(name.max(flow_width), f64::max);
-    let lines = below.len() + usize::from(flow.is_some());
-    Room {
-        pin,
-        half: (wide / 2.0 + 6.0).max(pin + 6.0).ceil(),
-        above: reach + LINE + 3.0,
-        below: reach + LINE * lines as f64 + 3.0,
-    }
-}
-
 /// Puts a diagram on a page.
 struct Drawing<'a> {
     diagram: &'a Diagram,
@@ -215,7 +162,11 @@ struct Drawing<'a> {
 }
 
 impl Drawing<'_> {
-    fn draw(&mut self, arranged: &Arranged, ends: &[(usize, usize)]) {
+    fn draw(
+        &mut self,
+        arranged: &Arranged,
+        (ends, supplies): (&[(usize, usize)], &[Supplies<'_>]),
+    ) {
         let (left, top) = self.corner;
         let moved = |(x, y): Point| (x + left, y + top);
         for wire in &arranged.wires {
@@ -234,8 +185,8 @@ impl Drawing<'_> {
             let turned = arranged.reversed[i] != (ends[i].0 != link.from);
             self.link(link, moved(*at), turned);
         }
-        for (source, at) in self.diagram.sources.iter().zip(sources) {
-            self.source(source, moved(*at));
+        for (all, at) in supplies.iter().zip(sources) {
+            all.draw(self.scene, moved(*at), self.diagram.scales.as_ref());
         }
         for (place, at) in self.diagram.places.iter().zip(&arranged.places) {
             self.place(place, moved(*at));
@@ -291,13 +242,6 @@ impl Drawing<'_> {
         self.scene.write(Text::new(text, at, VALUE, Ink::Text).bold());
     }
 
-    fn source(&mut self, source: &Supply, (x, y): Point) {
-        symbols::source(self.scene, (x, y));
-        self.name(&source.name, (x, y - SOURCE - 6.0));
-        let words = source_words(source, self.diagram.scales.as_ref());
-        self.below(&words, (x, y + SOURCE + LINE - 1.0));
-    }
-
     fn place(&mut self, place: &Place, (x, y): Point) {
         let (half, tall) = half_box(self.diagram, place);
         let ink = self.diagram.scales.as_ref().zip(place.kelvin).map(|(scales, kelvin)| {
@@ -317,6 +261,9 @@ impl Drawing<'_> {
             Some(ink) => frame.filled(ink, 0.3).stroked(Stroke::solid(ink, 3.0)),
             None => frame.filled(Ink::Grid, 0.5).stroked(symbols::pen()),
         });
+        if let Some(series) = place.series {
+            symbols::mark(self.scene, (corner.0 + 12.0, corner.1), series);
+        }
         let lines = lines(self.diagram, place);
         let first = y - LINE * (lines.len() as f64 - 1.0) / 2.0 + 4.5;
         for (i, (text, bold)) in lines.into_iter().enumerate() {
@@ -329,8 +276,9 @@ impl Drawing<'_> {
             symbols::hatching(self.scene, [x - half, x + half], y + tall + 1.5);
         } else if let Some(capacity) = capacity(place) {
             symbols::capacity(self.scene, (x, y + tall));
-            let at = (x + CAPACITY.1 + 5.0, y + tall + 18.0);
-            self.scene.write(Text::new(capacity, at, VALUE, Ink::Text));
+            let at = (x, y + tall + CAPACITY.0 + LINE - 4.0);
+            let text = Text::new(capacity, at, VALUE, Ink::Text).aligned(Align::Middle);
+            self.scene.write(text);
         }
     }
 }

@@ -103,3 +103,12 @@ pub(crate) fn hatching(scene: &mut Scene, [from, to]: [f64; 2], y: f64) {
         scene.put(line([(x, y), (x - 6.0, y + 6.0)]).stroked(Stroke::solid(Ink::Text, 1.0)));
     }
 }
+
+/// Radius of the mark of a curve.
+pub(crate) const MARK: f64 = 4.5;
+
+/// The mark of a node or boundary: the ink of its curve over time.
+pub(crate) fn mark(scene: &mut Scene, at: (f64, f64), series: usize) {
+    let outline = Stroke::solid(Ink::Paper, 1.5);
+    scene.put(circle(at, MARK).filled(Ink::Series(series), 1.0).stroked(outline));
+}

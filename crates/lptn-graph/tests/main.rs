@@ -9,4 +9,5 @@
 
 mod common;
 mod pictures;
+mod quality;
 mod sankey;

@@ -5,13 +5,10 @@
 
 use crate::common;
 
-use common::{EVIL, check, networks};
-use lptn_assembly::ThermalSystem;
-use lptn_graph::{Diagram, Grouping, View, diagram, dot, mermaid, scene};
+use common::{EVIL, check, drawn, networks};
+use lptn_graph::{Diagram, Grouping, dot, mermaid, scene};
 use lptn_netlist::Netlist;
 use lptn_plot::{png, svg};
-use lptn_solve::SteadyState;
-use lptn_units::Unit;
 
 /// A ladder of so many nodes that lose heat to one boundary: rows of columns.
 fn ladder(count: usize) -> Netlist {
@@ -27,16 +24,6 @@ fn ladder(count: usize) -> Netlist {
         text += &format!("c{i} = {{ from = \"n{i}\", to = \"air\", R = \"9 K/W\" }}\n")
     });
     lptn_netlist::parse("ladder", &text).unwrap()
-}
-
-fn drawn(netlist: &Netlist, steady: bool, grouping: Grouping) -> Diagram {
-    let network = &netlist.network;
-    let unit = Unit::parse("degC").unwrap();
-    let system = ThermalSystem::assemble(network).unwrap();
-    // some cycle: they are drawn without
-    let steady = steady.then(|| SteadyState::solve(&system, 0.0).ok()).flatten();
-    let title = network.title().unwrap_or("untitled");
-    diagram(network, &View { title, grouping, unit: &unit, state: steady.as_deref() })
 }
 
 #[test]

@@ -22,7 +22,7 @@ fn read(text: &str) -> Netlist {
 
 fn drawn(netlist: &Netlist, state: Option<&Snapshot>, grouping: Grouping) -> Diagram {
     let unit = Unit::parse("degC").unwrap();
-    diagram(&netlist.network, &View { title: "title", grouping, unit: &unit, state })
+    diagram(&netlist.network, &View { title: "title", grouping, unit: &unit, state, marked: false })
 }
 
 fn steady(netlist: &Netlist) -> Option<Snapshot> {

@@ -17,6 +17,9 @@ pub(crate) fn sheet() -> String {
     for ink in Ink::all() {
         let key = ink.key();
         sheet += &format!(".f-{key}{{fill:var(--{key})}}.s-{key}{{stroke:var(--{key})}}");
+        if let Ink::Series(_) = ink {
+            sheet += &format!(".spark.c-{key}{{color:var(--{key})}}");
+        }
     }
     format!("{sheet}\n{UPLOT}\n{PAGE}")
 }

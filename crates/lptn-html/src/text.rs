@@ -1,5 +1,6 @@
 //! Lines, sentences and tables.
 
+use lptn_plot::Ink;
 use lptn_plot::svg::escaped;
 use lptn_report::{Align, Block, Column, Standing, Text, TextTable};
 
@@ -72,7 +73,12 @@ fn table(out: &mut String, table: &TextTable) {
         for column in table.columns() {
             let class = match column.standing.get(row) {
                 Some(standing) => format!(" class=\"{}\"", class_of(*standing)),
-                None => class(column).to_owned(),
+                None => match column.curves.get(row) {
+                    Some(Some(place)) => {
+                        format!(" class=\"spark c-{}\"", Ink::Series(*place).key())
+                    }
+                    _ => class(column).to_owned(),
+                },
             };
             *out += &format!("<td{class}>{}</td>", escaped(&column.cells[row]));
         }

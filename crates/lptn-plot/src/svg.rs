@@ -90,6 +90,11 @@ fn write_text(out: &mut String, text: &Text, theme: Theme) -> fmt::Result {
     if text.bold {
         out.push_str(" font-weight=\"bold\"");
     }
+    // another font may be wider; a single letter has nothing to move
+    if text.text.chars().nth(1).is_some() {
+        let wide = length(crate::font::width(&text.text, text.size, text.bold));
+        write!(out, " textLength=\"{wide}\" lengthAdjust=\"spacingAndGlyphs\"")?;
+    }
     if text.upward {
         write!(out, " transform=\"rotate(-90 {x} {y})\"")?;
     }

@@ -40,13 +40,16 @@ pub struct Column {
     pub names: bool,
     /// Standing of each text, one per row; empty if the texts are not verdicts.
     pub standing: Vec<Standing>,
+    /// The place whose ink each text has, one per row: that of the curve of the same thing. Empty
+    /// if the texts are not curves.
+    pub curves: Vec<Option<usize>>,
 }
 
 impl Column {
     /// A column that is always shown.
     pub fn new(title: impl Into<String>, align: Align, cells: Vec<String>) -> Self {
-        let (title, standing) = (title.into(), Vec::new());
-        Self { title, cells, align, optional: false, spare: false, names: false, standing }
+        let (title, standing, curves) = (title.into(), Vec::new(), Vec::new());
+        Self { title, cells, align, optional: false, spare: false, names: false, standing, curves }
     }
 
     /// The same column, left out when the table is too wide.
@@ -148,6 +151,15 @@ impl<'a, T> TextTableOf<'a, T> {
     pub fn judged(mut self, standing: impl FnMut(&'a T) -> Standing) -> Self {
         if let Some(last) = self.columns.last_mut() {
             last.standing = self.items.iter().map(standing).collect();
+        }
+        self
+    }
+
+    /// Gives the place of the curve whose ink each text of the last column has.
+    #[must_use]
+    pub fn inked(mut self, place: impl FnMut(&'a T) -> Option<usize>) -> Self {
+        if let Some(last) = self.columns.last_mut() {
+            last.curves = self.items.iter().map(place).collect();
         }
         self
     }

@@ -34,7 +34,7 @@ pub use format::{Format, write};
 pub use heat::{Flow, balance};
 pub use json::{Json, JsonWriter};
 pub use layout::{Align, Column, TextTable, TextTableOf, labelled, stacked};
-pub use names::{differing, plain, shortened};
+pub use names::{differing, plain, shortened, without_folders};
 pub use number::{Shortest, decimals, duration, fixed, prefix, rounded_up, significant};
 pub use of_page::{report_of, with_results};
 pub use page::{Page, PageOf, Rows};

@@ -41,6 +41,17 @@ pub fn differing(names: &[String]) -> Vec<String> {
     parts.unwrap_or_else(|| names.to_vec())
 }
 
+/// Names of files without the folders that all have in common: `a/1.csv` and `b/1.csv` of
+/// `runs/a/1.csv` and `runs/b/1.csv`. They distinguish files of one name and are whole.
+pub fn without_folders(names: &[String]) -> Vec<String> {
+    let folders = |name: &str| name.rfind(['/', '\\']).map_or(0, |at| at + 1);
+    let Some(first) = names.first() else { return Vec::new() };
+    let shared = |at: &usize| names.iter().all(|name| name.get(..*at) == first.get(..*at));
+    let ends = first[..folders(first)].match_indices(['/', '\\']).map(|(at, _)| at + 1);
+    let head = ends.take_while(shared).last().unwrap_or(0);
+    names.iter().map(|name| name[head..].to_owned()).collect()
+}
+
 /// A text on one line without control characters, so that no file can steer the terminal.
 pub fn plain(text: &str) -> String {
     let one_line = text.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -49,8 +60,22 @@ pub fn plain(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{differing, plain};
+    use super::{differing, plain, without_folders};
     use crate::layout::{Align, Column};
+
+    #[test]
+    fn files_of_one_name_keep_the_folders_that_differ() {
+        let names = |all: &[&str]| all.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+        for (all, expected) in [
+            (names(&["runs/spring/1.csv", "runs/autumn/1.csv"]), ["spring/1.csv", "autumn/1.csv"]),
+            (names(&["runs/1000rpm.csv", "runs/1000rpm_b.csv"]), ["1000rpm.csv", "1000rpm_b.csv"]),
+            (names(&["1.csv", "runs/1.csv"]), ["1.csv", "runs/1.csv"]),
+            (names(&["a/x.csv", "a/x.csv"]), ["x.csv", "x.csv"]),
+        ] {
+            assert_eq!(without_folders(&all), expected);
+        }
+        assert_eq!(without_folders(&names(&["a\\b\\c.csv"])), ["c.csv"]);
+    }
 
     #[test]
     fn names_are_told_apart_by_the_part_that_differs() {

@@ -6,7 +6,7 @@ use lptn_plot::figure::{Axis, Panel};
 const RESIDUALS: f64 = 0.35;
 
 /// An empty panel over time, of differences in `unit`.
-pub(super) fn differences(name: &str, unit: &str) -> Panel {
+pub(crate) fn differences(name: &str, unit: &str) -> Panel {
     let axis = Axis::linear(name, unit);
     Panel { share: RESIDUALS, ..Panel::new(Axis::time(), axis) }
 }

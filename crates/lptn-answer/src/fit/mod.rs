@@ -1,7 +1,7 @@
 //! Parameters, laws and choices of networks from records.
 
 pub mod compare;
-mod figure;
+pub(crate) mod figure;
 pub mod law;
 pub mod network;
 pub mod step;

@@ -163,7 +163,13 @@ impl Asked<'_> {
         };
         let state = self.question.shows_state().then(|| self.state()).transpose()?;
         let title = self.input.title();
-        let view = View { title: &title, grouping, unit: &self.unit, state: state.as_ref() };
+        let view = View {
+            title: &title,
+            grouping,
+            unit: &self.unit,
+            state: state.as_ref(),
+            marked: false,
+        };
         Ok(lptn_graph::diagram(&self.input.netlist.network, &view))
     }
 }

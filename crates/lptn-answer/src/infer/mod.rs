@@ -6,6 +6,7 @@ mod follow;
 mod json;
 mod lacking;
 mod page;
+mod report;
 
 use std::sync::Arc;
 

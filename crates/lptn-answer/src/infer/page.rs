@@ -11,7 +11,6 @@ use lptn_solve::Table;
 use serde_json::{Value, json};
 
 use super::InferAnswer;
-use crate::about::{self, Known as Trust};
 use crate::messages;
 use crate::words::{count, difference, symbol};
 
@@ -44,13 +43,7 @@ impl Page for InferAnswer {
             text.section().table(self.jumps());
         }
         text.section().table(self.means());
-        if !self.found.sensors.is_empty() {
-            text.section().table(self.sensors());
-        }
-        if !self.found.parameters.is_empty() {
-            text.section().table(self.parameters());
-        }
-        text.section().table(self.columns());
+        self.instruments(&mut text);
         text.conclude(11, self.notes(), &self.verdict());
         text
     }
@@ -64,7 +57,7 @@ impl Page for InferAnswer {
     }
 
     fn more(&self) -> Report {
-        about::about(&self.input, Trust::default())
+        self.report()
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -104,13 +97,30 @@ fn with_error(value: f64, error: f64) -> (String, String) {
     (significant(value, 6), String::new())
 }
 
+/// A number with as many decimals as an error has.
+pub(super) fn to_error(value: f64, error: &str) -> String {
+    let digits = error.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    if error.is_empty() { significant(value, 6) } else { fixed(value, digits) }
+}
+
 impl InferAnswer {
+    /// Adds instruments, parameters and columns.
+    pub(super) fn instruments(&self, text: &mut Text) {
+        if !self.found.sensors.is_empty() {
+            text.section().table(self.sensors());
+        }
+        if !self.found.parameters.is_empty() {
+            text.section().table(self.parameters());
+        }
+        text.section().table(self.columns());
+    }
+
     fn length(&self) -> f64 {
         let times = &self.found.times;
         times.last().copied().unwrap_or(0.0) - times.first().copied().unwrap_or(0.0)
     }
 
-    fn is_whole(&self) -> bool {
+    pub(super) fn is_whole(&self) -> bool {
         self.found.courses.iter().all(InferredCourse::is_determined)
     }
 
@@ -137,7 +147,7 @@ impl InferAnswer {
     }
 
     /// Moments at even distances.
-    fn moments(&self) -> TextTable {
+    pub(super) fn moments(&self) -> TextTable {
         let last = self.found.times.len() - 1;
         let most = MOMENTS.min(last + 1) - 1;
         let chosen: Vec<usize> = (0..=most).map(|i| i * last / most).collect();
@@ -172,7 +182,7 @@ impl InferAnswer {
     }
 
     /// Times and sizes of the jumps of signals.
-    fn jumps(&self) -> TextTable {
+    pub(super) fn jumps(&self) -> TextTable {
         let by = |jump: &InferredJump| {
             let (value, error) = match self.task.sought[jump.course].positive {
                 true => with_error(100.0 * jump.by.value, 100.0 * jump.by.deviation),
@@ -204,24 +214,28 @@ impl InferAnswer {
     }
 
     /// Mean of each signal, and its value at the end.
-    fn means(&self) -> TextTable {
+    pub(super) fn means(&self) -> TextTable {
         let all: Vec<usize> = (0..self.task.sought.len()).collect();
         let course = |j: usize| &self.found.courses[j];
-        let known = |j: usize, known: Known| {
-            with_error(self.shown(j, known.value), self.shown_difference(j, known.deviation))
-        };
         let pair = |(value, error): (String, String)| {
             if error.is_empty() { value } else { format!("{value} ± {error}") }
         };
         TextTable::of(&all)
             .left("signal", |&j| &*self.task.sought[j].name)
             .names()
-            .right("mean", |&j| course(j).mean.map_or(String::new(), |mean| pair(known(j, mean))))
+            .right("mean", |&j| {
+                course(j).mean.map_or(String::new(), |mean| pair(self.shown_with_error(j, mean)))
+            })
             .optional()
-            .right("at the end", |&j| pair(known(j, self.at_end(j))))
-            .right("if constant", |&j| pair(known(j, course(j).still.0)))
+            .right("at the end", |&j| pair(self.shown_with_error(j, self.at_end(j))))
+            .right("if constant", |&j| pair(self.shown_with_error(j, course(j).still.0)))
             .left("unit", |&j| symbol(&self.units[j].text))
             .into()
+    }
+
+    /// A value of a signal and its error in its unit.
+    pub(super) fn shown_with_error(&self, j: usize, known: Known) -> (String, String) {
+        with_error(self.shown(j, known.value), self.shown_difference(j, known.deviation))
     }
 
     /// The last value, with the standard deviation that belongs to the width of its band.
@@ -315,7 +329,7 @@ impl InferAnswer {
             .into()
     }
 
-    fn notes(&self) -> Vec<(&'static str, String)> {
+    pub(super) fn notes(&self) -> Vec<(&'static str, String)> {
         let mut notes: Vec<(&'static str, String)> = Vec::new();
         for (j, sought) in self.task.sought.iter().enumerate() {
             notes.push(("smoothness", self.smoothness(j)));
@@ -355,7 +369,7 @@ impl InferAnswer {
     }
 
     /// Text that says if the record shows a change.
-    fn changes(&self, j: usize) -> String {
+    pub(super) fn changes(&self, j: usize) -> String {
         /// Twice the logarithm of a ratio of likelihoods that chance exceeds in 5 of 100 records,
         /// if nothing changes: half of them are 0 (S. G. Self, K.-Y. Liang, J. Am. Stat. Assoc. 82
         /// (1987) 605).
@@ -372,14 +386,12 @@ impl InferAnswer {
         }
     }
 
-    fn verdict(&self) -> String {
+    pub(super) fn verdict(&self) -> String {
         if !self.is_whole() {
             return self.lacking();
         }
         let text = self.task.sought.iter().enumerate().map(|(j, sought)| {
-            let end = self.at_end(j);
-            let (value, error) =
-                with_error(self.shown(j, end.value), self.shown_difference(j, end.deviation));
+            let (value, error) = self.shown_with_error(j, self.at_end(j));
             let unit = symbol(&self.units[j].text);
             format!("{} = {value} ± {error} {unit} at the end", sought.name)
         });

@@ -93,6 +93,8 @@ fn rename(figure: &mut Figure, source: &str) {
     }
     for curve in figure.panels.iter_mut().flat_map(|panel| &mut panel.curves) {
         curve.name = format!("{source}: {}", curve.name);
+        // the same node of several runs
+        curve.place = None;
     }
 }
 
@@ -127,11 +129,12 @@ fn add(curves: &mut Vec<Curve>, curve: Curve) {
     }
 }
 
-/// The computed curve of the same name, and its place.
+/// The computed curve of the same name, and the place whose ink it has.
 fn computed_of<'a>(name: &str, panel: &Panel, computed: &'a [Panel]) -> Option<(usize, &'a Curve)> {
     let here = computed.iter().find(|other| is_same(other, panel))?;
     let bare = name.rsplit(": ").next().unwrap_or(name);
-    here.curves.iter().enumerate().find(|(_, curve)| curve.name == bare)
+    let (place, curve) = here.curves.iter().enumerate().find(|(_, curve)| curve.name == bare)?;
+    Some((curve.place.unwrap_or(place), curve))
 }
 
 /// Gives measured curves the ink of the computed ones.

@@ -1,8 +1,9 @@
 //! A run as a picture: its columns over time, with limits, events and uncertainty.
 
-use lptn_network::Network;
-use lptn_plot::Figure;
+use lptn_graph::series;
+use lptn_network::{End, Item, Network};
 use lptn_plot::figure::{Curve, Moment, Panel};
+use lptn_plot::{Figure, SERIES};
 use lptn_report::{MOST_CURVES, TEMPERATURE, panels, proven_caption};
 use lptn_solve::Event;
 
@@ -32,6 +33,7 @@ impl RunAnswer {
         for panel in &mut panels {
             panel.moments.clone_from(&moments);
             self.spread(panel);
+            inked(panel, network);
         }
         let title = self.task.input.title();
         Figure { title, note: self.note((left_out, undrawn), moments.is_empty()), panels }
@@ -107,6 +109,24 @@ impl RunAnswer {
             let sides = sides.map(|(si, half)| (shown(si - half), shown(si + half))).collect();
             *curve = Curve::line(&curve.name, points.collect()).within(sides);
         }
+    }
+}
+
+/// Gives the curves of temperatures the inks that their nodes and boundaries have in every picture.
+fn inked(panel: &mut Panel, network: &Network) {
+    if panel.y.name != TEMPERATURE {
+        return;
+    }
+    let ends = network.nodes().len() + network.boundaries().len();
+    for (i, curve) in panel.curves.iter_mut().enumerate() {
+        // curves that lie upon each other are one, with both names
+        let first = curve.name.split(", ").next().unwrap_or_default();
+        curve.place = match network.item(first) {
+            Ok(Item::Node(id)) => series(network, End::Node(id)),
+            Ok(Item::Boundary(id)) => series(network, End::Boundary(id)),
+            _ if ends <= 2 * SERIES => Some(ends + i),
+            _ => None,
+        };
     }
 }
 

@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 use std::io;
 
+use lptn_graph::series;
+use lptn_network::End;
 use lptn_plot::Figure;
 use lptn_report::{
     Clock, Flow, Json, Page, Report, Rows, Text, TextTable, decimals, fixed, rounded_up,
@@ -177,6 +179,7 @@ fn temperatures(of: &RunAnswer, nodes: &[NodeSummary]) -> TextTable {
         .left(format!("{} to {end}", start_of_curve(settings.start, clock)), |row| {
             curve(of, &row.item)
         })
+        .inked(|row| series(network, End::Node(row.item.node)).filter(|_| row.others.is_empty()))
         .optional()
         .into()
 }

@@ -121,10 +121,13 @@ pub struct InferredSensor {
 }
 
 /// Readings of a column compared with their predictions from all readings before.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct InferredColumn {
     /// Number of readings.
     pub readings: usize,
+    /// The index of the moment of each reading, and the reading less its prediction in standard
+    /// deviations of that difference.
+    pub surprises: Vec<(usize, f64)>,
     /// Standard deviation of the noise of one reading in K, given or estimated.
     pub sigma: f64,
     /// Standard deviation of its slow part in K, and the time in s until 1/e of it is left; `None`

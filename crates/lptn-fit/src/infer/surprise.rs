@@ -14,14 +14,19 @@ pub(crate) fn columns(
 ) -> Vec<InferredColumn> {
     let several = strength.noises.len() > 1;
     let one = |(i, noise): (usize, &Noise)| {
-        let own = surprises.iter().flatten().filter(|(column, _)| *column == i);
-        let all: Vec<f64> = own.map(|(_, s)| s.residual / s.variance.sqrt()).collect();
+        let at = |(k, moment): (usize, &Vec<(usize, Innovation)>)| {
+            let own = moment.iter().filter(|(column, _)| *column == i);
+            own.map(|(_, s)| (k, s.residual / s.variance.sqrt())).collect::<Vec<_>>()
+        };
+        let surprises: Vec<(usize, f64)> = surprises.iter().enumerate().flat_map(at).collect();
+        let all: Vec<f64> = surprises.iter().map(|(_, surprise)| *surprise).collect();
         let count = all.len().max(1) as f64;
         let mean = all.iter().sum::<f64>() / count;
         let squares = all.iter().map(|x| x * x).sum::<f64>();
         let neighbours = all.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>() / squares;
         InferredColumn {
             readings: all.len(),
+            surprises,
             sigma: noise.whole(),
             slow: (noise.drift > 0.0).then_some((noise.drift, noise.time)),
             first: all.first().copied().unwrap_or(0.0),

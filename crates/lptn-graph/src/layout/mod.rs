@@ -62,6 +62,10 @@ pub(crate) struct Arranged {
     pub(crate) dots: Vec<Point>,
     /// Width and height.
     pub(crate) size: Point,
+    /// The column of each place from the left, if all were in one row.
+    pub(crate) ranks: Vec<usize>,
+    /// The level of each place, if all were in one row.
+    pub(crate) levels: Vec<f64>,
 }
 
 /// Arranges places and elements in columns. There are several rows of columns if one row would be
@@ -79,8 +83,15 @@ pub(crate) fn arrange(places: &[Room], elements: &[Element], most: f64) -> Arran
         places: vec![(0.0, 0.0); places.len()],
         elements: vec![(0.0, 0.0); elements.len()],
         reversed: ranks.reversed,
+        ranks: ranks.rank,
+        levels: vec![0.0; places.len()],
         ..Arranged::default()
     };
+    for (vertex, level) in columns.vertices.iter().zip(&levels) {
+        if let Vertex::Place(i) = *vertex {
+            arranged.levels[i] = *level;
+        }
+    }
     let mut turned = Vec::new();
     for row in place::rows(&columns, &routes, most) {
         let row = Row { columns: &columns, levels: &levels, routes: &routes, row };

@@ -23,6 +23,47 @@ pub(crate) fn reduce_crossings(layers: &mut Vec<Vec<usize>>, neighbours: &Neighb
         }
     }
     *layers = best.1;
+    exchange(layers, neighbours, &|_, _| true);
+}
+
+/// Exchanges neighbours of a column that may be exchanged, as long as fewer wires cross.
+pub(crate) fn exchange(
+    layers: &mut [Vec<usize>],
+    neighbours: &Neighbours,
+    may: &dyn Fn(usize, usize) -> bool,
+) {
+    for _ in 0..SWEEPS {
+        let mut moved = false;
+        for layer in 0..layers.len() {
+            let at = places(layers, neighbours[0].len());
+            for i in 1..layers[layer].len() {
+                let (a, b) = (layers[layer][i - 1], layers[layer][i]);
+                let pairs = |a: usize, b: usize| {
+                    let of = |side: &Vec<Vec<usize>>| {
+                        let after = |y: &usize| side[b].iter().filter(|z| at[**z] < at[*y]).count();
+                        side[a].iter().map(after).sum::<usize>()
+                    };
+                    neighbours.iter().map(of).sum::<usize>()
+                };
+                if may(a, b) && pairs(b, a) < pairs(a, b) {
+                    layers[layer].swap(i - 1, i);
+                    moved = true;
+                }
+            }
+        }
+        if !moved {
+            break;
+        }
+    }
+}
+
+/// The place of each vertex in its column.
+fn places(layers: &[Vec<usize>], count: usize) -> Vec<usize> {
+    let mut at = vec![0; count];
+    for layer in layers {
+        layer.iter().enumerate().for_each(|(i, v)| at[*v] = i);
+    }
+    at
 }
 
 /// Position of each vertex in its column, from 0, the first, to 1.
@@ -47,12 +88,7 @@ fn sort(layers: &mut [Vec<usize>], layer: usize, joined: &[Vec<usize>]) {
 
 /// Number of pairs of wires that cross.
 fn crossings(layers: &[Vec<usize>], after: &[Vec<usize>]) -> usize {
-    let mut at = vec![0; after.len()];
-    for layer in layers {
-        for (i, v) in layer.iter().enumerate() {
-            at[*v] = i;
-        }
-    }
+    let at = places(layers, after.len());
     layers.iter().map(|layer| inversions(layer, after, &at)).sum()
 }
 

@@ -9,8 +9,9 @@ use super::route::{Channel, MOST_TURNING};
 /// Between two neighbours of a column.
 const GAP: f64 = 14.0;
 
-/// A row may be wider than the mean by this factor.
-const UNEVEN: f64 = 1.1;
+/// Rows have to make a drawing narrower than this share of its width in one row: wires between rows
+/// are long.
+const WORTH: f64 = 0.75;
 
 /// Number of rounds that draw levels towards their neighbours.
 const ROUNDS: usize = 24;
@@ -155,31 +156,43 @@ pub(crate) fn extent(columns: &Columns, levels: &[f64], row: &Range<usize>) -> (
     })
 }
 
-/// Rows of columns of nearly equal width, at most about `most` pixels; a row ends after places.
+/// Rows of columns, as few as possible, of at most `most` pixels; the widest is as narrow as
+/// possible. A row ends after places from which few wires go on.
 pub(crate) fn rows(columns: &Columns, routes: &[Channel], most: f64) -> Vec<Range<usize>> {
     let count = columns.layers.len();
     let width =
         |layer: usize| 2.0 * columns.half(layer) + routes.get(layer).map_or(0.0, Channel::width);
-    let all: f64 = (0..count).map(width).sum();
-    let most = all / (all / most).ceil() * UNEVEN;
-    let (mut rows, mut start, mut sum) = (Vec::new(), 0, 0.0);
-    let mut end_of_row = None;
-    for layer in 0..count {
-        sum += width(layer);
-        if sum > most
-            && let Some(end) = end_of_row.take()
-        {
-            rows.push(start..end);
-            start = end;
-            sum = (start..=layer).map(width).sum();
-        }
-        let places =
-            columns.layers[layer].iter().any(|v| matches!(columns.vertices[*v], Vertex::Place(_)));
-        // few wires may go on to the next row
-        if places && layer + 1 < count && columns.nets[layer].len() <= MOST_TURNING {
-            end_of_row = Some(layer + 1);
-        }
+    let mut left = vec![0.0; count + 1];
+    (0..count).for_each(|layer| left[layer + 1] = left[layer] + width(layer));
+    let is_place = |v: &usize| matches!(columns.vertices[*v], Vertex::Place(_));
+    let may_end = |end: &usize| {
+        *end == count
+            || columns.nets[end - 1].len() <= MOST_TURNING
+                && columns.layers[end - 1].iter().any(is_place)
+    };
+    let mut stops = vec![0];
+    stops.extend((1..=count).filter(may_end));
+    // by number of rows: the least width of the widest up to each stop, and the stop before it
+    let mut best: Vec<Vec<(f64, usize)>> =
+        vec![stops.iter().map(|stop| (left[*stop], 0)).collect()];
+    while best[best.len() - 1][stops.len() - 1].0 > most && best.len() + 1 < stops.len() {
+        let last = &best[best.len() - 1];
+        let to = |end: usize| {
+            let over = |from: usize| (last[from].0.max(left[stops[end]] - left[stops[from]]), from);
+            (1..end).map(over).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0))
+        };
+        let next = (0..stops.len()).map(to).collect();
+        best.push(next);
     }
-    rows.push(start..count);
+    let least = |row: &[(f64, usize)]| row[stops.len() - 1].0;
+    let fits = best.iter().map(|row| least(row)).fold(f64::INFINITY, f64::min).max(most);
+    let number = best.iter().position(|row| least(row) <= fits).unwrap_or(0);
+    let number = if least(&best[number]) < WORTH * least(&best[0]) { number } else { 0 };
+    let (mut rows, mut end) = (Vec::new(), stops.len() - 1);
+    for row in best[..=number].iter().rev() {
+        rows.push(stops[row[end].1]..stops[end]);
+        end = row[end].1;
+    }
+    rows.reverse();
     rows
 }

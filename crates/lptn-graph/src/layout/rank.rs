@@ -33,7 +33,7 @@ pub(crate) fn ranks(places: usize, elements: &[Element]) -> Ranks {
     for &place in finished.iter().rev() {
         rank[place] = into[place].iter().map(|a| rank[*a] + 1).max().unwrap_or(0);
     }
-    draw_near(&mut rank, &into);
+    shorten(&mut rank, &into);
     Ranks { rank, reversed }
 }
 
@@ -73,19 +73,75 @@ fn walk(out: &[Vec<(usize, usize)>], entered: &[bool], elements: usize) -> (Vec<
     (reversed, finished)
 }
 
-/// Moves places that nothing leads to just before the first that they lead to.
-fn draw_near(rank: &mut [usize], into: &[Vec<usize>]) {
-    let mut first = vec![usize::MAX; rank.len()];
+/// Rounds in which places move; each round moves every place at most by one to each side.
+const ROUNDS: usize = 64;
+
+/// Moves places, each with those that it pushes on, as long as this shortens wires: a place is
+/// joined to the first of those that lead to it by one wire.
+fn shorten(rank: &mut [usize], into: &[Vec<usize>]) {
+    let mut out = vec![Vec::new(); rank.len()];
     for (place, before) in into.iter().enumerate() {
-        for a in before {
-            first[*a] = first[*a].min(rank[place]);
+        before.iter().for_each(|a| out[*a].push(place));
+    }
+    for _ in 0..ROUNDS {
+        let mut moved = false;
+        for place in 0..rank.len() {
+            for right in [true, false] {
+                let next = if right { &out } else { into };
+                let Some(pushed) = pushed(place, rank, (next, right)) else { continue };
+                let before = length(rank, into);
+                shift(rank, &pushed, right);
+                if length(rank, into) < before {
+                    moved = true;
+                } else {
+                    shift(rank, &pushed, !right);
+                }
+            }
+        }
+        if !moved {
+            break;
         }
     }
-    for (place, before) in into.iter().enumerate() {
-        if before.is_empty() && first[place] != usize::MAX {
-            rank[place] = first[place] - 1;
+    let least = rank.iter().min().copied().unwrap_or(0);
+    rank.iter_mut().for_each(|rank| *rank -= least);
+}
+
+fn shift(rank: &mut [usize], places: &[usize], right: bool) {
+    places.iter().for_each(|p| rank[*p] = if right { rank[*p] + 1 } else { rank[*p] - 1 });
+}
+
+/// A place and those that have to move with it by one column; `None` if one of them is in the
+/// first column and should go left.
+fn pushed(
+    place: usize,
+    rank: &[usize],
+    (next, right): (&[Vec<usize>], bool),
+) -> Option<Vec<usize>> {
+    let mut found = vec![place];
+    let mut seen = vec![false; rank.len()];
+    seen[place] = true;
+    let mut at = 0;
+    while let Some(&place) = found.get(at) {
+        if !right && rank[place] == 0 {
+            return None;
         }
+        for &other in &next[place] {
+            if rank[other].abs_diff(rank[place]) == 1 && !seen[other] {
+                seen[other] = true;
+                found.push(other);
+            }
+        }
+        at += 1;
     }
+    Some(found)
+}
+
+/// Columns that all wires pass.
+fn length(rank: &[usize], into: &[Vec<usize>]) -> usize {
+    let of = |(place, before): (usize, &Vec<usize>)| {
+        before.iter().map(|a| rank[*a]).min().map_or(0, |first| rank[place] - first)
+    };
+    into.iter().enumerate().map(of).sum()
 }
 
 #[cfg(test)]

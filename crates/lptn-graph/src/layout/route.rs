@@ -187,7 +187,7 @@ pub(crate) fn joined(wires: Vec<[Point; 2]>) -> Vec<[Point; 2]> {
 }
 
 /// At most this many wires go on from a row to the next one, so that a reader can follow them.
-pub(crate) const MOST_TURNING: usize = 4;
+pub(crate) const MOST_TURNING: usize = 2;
 
 /// A wire on its way to the next row: its net, and the point at which it turns downwards again.
 pub(crate) type Turned = (usize, Point);

@@ -4,6 +4,7 @@ mod links;
 mod sources;
 
 use lptn_network::{Acts, ControlId, End, Evaluation, Item, Network};
+use lptn_plot::SERIES;
 use lptn_report::plain;
 use lptn_solve::Snapshot;
 use lptn_units::Unit;
@@ -23,6 +24,16 @@ pub struct View<'a> {
     pub unit: &'a Unit,
     /// The state that is shown.
     pub state: Option<&'a Snapshot>,
+    /// True if each node and boundary is marked with the ink of its curve over time.
+    pub marked: bool,
+}
+
+/// The place of the curve of a node or boundary over time, which decides its ink in every picture:
+/// its position in the network, nodes before boundaries. `None` in networks of more nodes and
+/// boundaries than inks and dashes can distinguish.
+pub fn series(network: &Network, end: End) -> Option<usize> {
+    let ends = network.nodes().len() + network.boundaries().len();
+    (ends <= 2 * SERIES).then(|| network.vertex(end))
 }
 
 /// A network as it is drawn. Values that do not depend on time or temperatures are numbers.
@@ -150,8 +161,17 @@ impl Reader<'_> {
         };
         let (role, name) = (self.role(group), plain(&group.name));
         let stored = self.stored(group).filter(|_| role.stores());
-        let within = self.within(group);
-        Place { name, role, temperature, kelvin, stored, within }
+        let (within, series) = (self.within(group), self.series(group));
+        Place { name, role, temperature, kelvin, stored, within, series }
+    }
+
+    fn series(&self, group: &Group) -> Option<usize> {
+        let end = match (group.nodes.as_slice(), group.boundaries.as_slice()) {
+            ([one], []) => End::Node(*one),
+            ([], [one]) => End::Boundary(*one),
+            _ => return None,
+        };
+        series(self.network, end).filter(|_| self.view.marked)
     }
 
     fn temperatures(&self, group: &Group) -> Option<Vec<f64>> {

@@ -16,9 +16,13 @@ use lptn_report::shortened;
 
 pub use flows::{Band, Bar, BarRole, HeatFlows};
 
+use crate::direction::ends;
 use crate::groups::MOST_PLACES;
 use crate::legend;
 use crate::model::{Diagram, Scales};
+use crate::picture::arranged;
+use crate::supplies::supplies;
+use crate::symbols::{self, MARK};
 use place::{LABEL, Placed, PlacedBand, place};
 
 lptn_units::errors! {
@@ -53,6 +57,9 @@ const BAR: f64 = 12.0;
 /// Between a bar and its name.
 const BESIDE: f64 = 6.0;
 
+/// Room that the mark of a curve takes before a name.
+const MARKED: f64 = 2.0 * MARK + 4.0;
+
 /// The least room between two columns of bars, and the room that bands need there to bend.
 const LEAST_GAP: f64 = 120.0;
 const BEND: f64 = 34.0;
@@ -61,13 +68,13 @@ const BEND: f64 = 34.0;
 const MARGIN: f64 = 24.0;
 
 /// A picture that would be wider than this, in pixels, has no names at its bands.
-const MOST_WIDTH: f64 = 2000.0;
+const MOST_WIDTH: f64 = 1400.0;
 
 /// A band that is narrower than this has no room for its name.
 const NAMED: f64 = 20.0;
 
-/// The heat flows of a diagram as a drawing. Heat flows from left to right. Bands that would close
-/// a circle flow back and bear an arrow.
+/// The heat flows of a diagram as a drawing, with its places in the columns and in the order of
+/// [`scene`](crate::scene()). Most heat flows from left to right. Bands that flow back bear an arrow.
 ///
 /// # Errors
 /// [`NoSankey`] if no state is shown, if nothing flows in it, or if there are more than
@@ -80,7 +87,8 @@ pub fn sankey(diagram: &Diagram) -> Result<Scene, NoSankey> {
         bars if bars > MOST_PLACES => return Err(NoSankey::TooMany { bars }),
         _ => {}
     }
-    let placed = place(&flows);
+    let circuit = arranged(diagram, &ends(diagram), &supplies(diagram));
+    let placed = place(&flows, &circuit);
     let (flows, placed) = (&flows, &placed);
     let mut drawing =
         Drawing { diagram, scales, flows, placed, x: Vec::new(), free: Vec::new(), named: true };
@@ -136,7 +144,8 @@ impl Drawing<'_> {
         let mut names = vec![0.0_f64; self.placed.columns];
         for (i, bar) in self.placed.bars.iter().enumerate() {
             let [name, value] = self.words(i);
-            let wide = width(&name, NAME, true).max(width(&value, VALUE, false));
+            let named = self.mark(i).map_or(0.0, |_| MARKED) + width(&name, NAME, true);
+            let wide = named.max(width(&value, VALUE, false));
             words[bar.column] = words[bar.column].max(wide + BESIDE);
         }
         for (i, band) in self.placed.bands.iter().enumerate() {
@@ -192,6 +201,14 @@ impl Drawing<'_> {
         (!words.is_empty()).then(|| words.join(" "))
     }
 
+    /// The place of the curve of a bar.
+    fn mark(&self, bar: usize) -> Option<usize> {
+        match self.flows.bars[bar].role {
+            BarRole::Place(i) => self.diagram.places[i].series,
+            _ => None,
+        }
+    }
+
     /// The colour of a bar: that of its temperature.
     fn ink(&self, bar: usize) -> Ink {
         let kelvin = match self.flows.bars[bar].role {
@@ -218,7 +235,11 @@ impl Drawing<'_> {
         for (i, bar) in self.placed.bars.iter().enumerate() {
             let at = (self.x[bar.column] + BAR + BESIDE, top + bar.middle);
             let [name, value] = self.words(i);
-            scene.write(Text::new(name, (at.0, at.1 - 3.0), NAME, Ink::Text).bold());
+            let beside = self.mark(i).map_or(0.0, |series| {
+                symbols::mark(scene, (at.0 + MARK, at.1 - 7.5), series);
+                MARKED
+            });
+            scene.write(Text::new(name, (at.0 + beside, at.1 - 3.0), NAME, Ink::Text).bold());
             let below = at.1 + LABEL / 2.0 - 5.0;
             scene.write(Text::new(value, (at.0, below), VALUE, Ink::Text));
         }

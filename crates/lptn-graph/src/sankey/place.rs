@@ -1,10 +1,10 @@
 //! The places of the bars, and the points at which bands leave and reach them.
 
-use super::flows::HeatFlows;
-use crate::layout::order::{Neighbours, reduce_crossings};
+use super::flows::{Bar, BarRole, HeatFlows};
+use crate::layout::order::{Neighbours, exchange};
 use crate::layout::place::settle;
-use crate::layout::rank::{Ranks, ranks};
-use crate::layout::{Element, Room};
+use crate::layout::rank::Ranks;
+use crate::layout::{Arranged, Room};
 
 /// Pixels of all the heat in the column that has most.
 const TALL: f64 = 260.0;
@@ -76,21 +76,59 @@ struct Layers {
     pieces: Vec<Piece>,
 }
 
-pub(crate) fn place(flows: &HeatFlows) -> Placed {
-    let elements = flows.bands.iter().map(|band| {
-        let block = Room::default();
-        Element { block, from: Some(band.from), to: band.to }
-    });
-    let ranks = ranks(flows.bars.len(), &elements.collect::<Vec<_>>());
+/// Places the bars: those of places in the columns and in the order of the circuit.
+pub(crate) fn place(flows: &HeatFlows, circuit: &Arranged) -> Placed {
+    let ranks = ranks(flows, circuit);
     let mut layers = Layers::new(flows, &ranks);
     let neighbours = layers.neighbours();
-    reduce_crossings(&mut layers.layers, &neighbours);
     let part = parts(&neighbours);
-    layers.layers.iter_mut().for_each(|layer| layer.sort_by_key(|vertex| part[*vertex]));
+    let heights = layers.heights(flows, circuit);
+    layers.layers.iter_mut().for_each(|layer| {
+        layer.sort_by(|a, b| part[*a].cmp(&part[*b]).then(heights[*a].total_cmp(&heights[*b])));
+    });
+    let is_place =
+        |bar: usize| flows.bars.get(bar).is_some_and(|bar| matches!(bar.role, BarRole::Place(_)));
+    let may = |a: usize, b: usize| part[a] == part[b] && !(is_place(a) && is_place(b));
+    exchange(&mut layers.layers, &neighbours, &may);
     layers.join();
     let mut levels = layers.levels();
     layers.stack(&mut levels, &part);
     layers.placed(&ranks, &levels)
+}
+
+/// The column of each bar, and the bands that flow to the left. Places have the columns of the
+/// circuit, or of its mirror image if more heat would flow to the left than to the right.
+fn ranks(flows: &HeatFlows, circuit: &Arranged) -> Ranks {
+    let own = |bar: &Bar| match bar.role {
+        BarRole::Place(i) => Some(circuit.ranks[i] + 1),
+        _ => None,
+    };
+    let mut columns: Vec<Option<usize>> = flows.bars.iter().map(own).collect();
+    let to_the_right: f64 = flows
+        .bands
+        .iter()
+        .map(|band| {
+            let ends = columns[band.from].zip(columns[band.to]);
+            ends.map_or(0.0, |(a, b)| if a < b { band.heat } else { -band.heat })
+        })
+        .sum();
+    if to_the_right < 0.0 {
+        let ends = columns.iter().flatten().copied().max().unwrap_or(0) + 1;
+        columns.iter_mut().flatten().for_each(|column| *column = ends - *column);
+    }
+    let mut rank: Vec<usize> = columns.iter().map(|column| column.unwrap_or(0)).collect();
+    for (bar, _) in columns.iter().enumerate().filter(|(_, column)| column.is_none()) {
+        let after = flows.bands.iter().filter(|band| band.from == bar).map(|band| rank[band.to]);
+        let before = flows.bands.iter().filter(|band| band.to == bar).map(|band| rank[band.from]);
+        let first = after.min().map(|first| first.saturating_sub(1));
+        rank[bar] = first.unwrap_or_else(|| before.max().map_or(0, |last| last + 1));
+    }
+    let mut used = rank.clone();
+    used.sort_unstable();
+    used.dedup();
+    rank.iter_mut().for_each(|rank| *rank = used.partition_point(|other| other < rank));
+    let reversed = flows.bands.iter().map(|band| rank[band.from] > rank[band.to]).collect();
+    Ranks { rank, reversed }
 }
 
 /// The height that a band of this width takes at a bar: a little more, to distinguish the next one.
@@ -172,6 +210,33 @@ impl Layers {
             found[1][*left].push(*right);
         }
         found
+    }
+
+    /// The height in the circuit of each vertex: of other bars that of the place that they heat or
+    /// cool, of bands on their way that between their ends.
+    fn heights(&self, flows: &HeatFlows, circuit: &Arranged) -> Vec<f64> {
+        let own = |bar: usize| match flows.bars[bar].role {
+            BarRole::Place(i) => Some(circuit.levels[i]),
+            _ => None,
+        };
+        let bar = |bar: usize| {
+            let ends = flows.bands.iter().filter(|band| band.from == bar || band.to == bar);
+            let others = ends.filter_map(|band| own(band.from + band.to - bar));
+            let (sum, count) = others.fold((0.0, 0.0), |(sum, n), level| (sum + level, n + 1.0));
+            own(bar).unwrap_or(if count > 0.0 { sum / count } else { 0.0 })
+        };
+        let mut heights: Vec<f64> = (0..flows.bars.len()).map(bar).collect();
+        heights.resize(self.halves.len(), 0.0);
+        let bars = flows.bars.len();
+        for pieces in self.pieces.chunk_by(|a, b| a.band == b.band) {
+            let (first, last) = (pieces[0].ends[0], pieces[pieces.len() - 1].ends[1]);
+            let (begin, end) = (heights[first], heights[last]);
+            for (i, piece) in pieces.iter().enumerate().filter(|(_, p)| p.ends[1] >= bars) {
+                let share = (i + 1) as f64 / pieces.len() as f64;
+                heights[piece.ends[1]] = begin + share * (end - begin);
+            }
+        }
+        heights
     }
 
     /// Joins the bands to both sides of every vertex in the order of their other ends.

@@ -4,8 +4,13 @@
 
 use std::path::{Path, PathBuf};
 
+use lptn_assembly::ThermalSystem;
+use lptn_graph::{Diagram, Grouping, View, diagram};
+use lptn_netlist::Netlist;
 use lptn_plot::scene::{Align, Shape, Step, Text};
 use lptn_plot::{Ink, Scene, font};
+use lptn_solve::SteadyState;
+use lptn_units::Unit;
 
 pub(crate) fn networks() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../networks");
@@ -116,4 +121,25 @@ pub(crate) fn check(scene: &Scene, name: &str) {
         let line = lines.iter().find(|line| overlap(own, **line));
         assert_eq!(line, None, "{name}: a line goes through `{}` {own:?}", text.text);
     }
+}
+
+/// The networks, and those of the pages.
+pub(crate) fn pages_and_networks() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/netlists");
+    let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut paths: Vec<PathBuf> =
+        entries.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
+    paths.sort();
+    assert!(paths.len() > 30);
+    networks().into_iter().chain(paths).collect()
+}
+
+pub(crate) fn drawn(netlist: &Netlist, steady: bool, grouping: Grouping) -> Diagram {
+    let network = &netlist.network;
+    let unit = Unit::parse("degC").unwrap();
+    let system = ThermalSystem::assemble(network).unwrap();
+    // some cycle: they are drawn without
+    let steady = steady.then(|| SteadyState::solve(&system, 0.0).ok()).flatten();
+    let title = network.title().unwrap_or("untitled");
+    diagram(network, &View { title, grouping, unit: &unit, state: steady.as_deref(), marked: true })
 }

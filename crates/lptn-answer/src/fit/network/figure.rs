@@ -7,11 +7,10 @@
 use lptn_fit::network::{ColumnMisfit, MeasuredColumn, MeasuredRun};
 use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Panel};
-use lptn_report::{MOST_CURVES, TEMPERATURE, significant};
+use lptn_report::{MOST_CURVES, TEMPERATURE, significant, without_folders};
 use lptn_units::Type;
 
 use super::FitNetworkAnswer;
-use super::page::column_name;
 use super::units::Shown;
 use crate::fit::figure::differences;
 
@@ -54,7 +53,10 @@ impl FitNetworkAnswer {
             let of: Vec<&ColumnMisfit> =
                 all.iter().filter(|misfit| self.column(misfit).ty == ty).copied().collect();
             let shown = Shown::of(ty, &self.input.netlist.temperature_unit);
-            let names = of.iter().map(|misfit| column_name(self, misfit)).collect();
+            let name = |misfit: &&ColumnMisfit| {
+                format!("{} ({})", self.column(misfit).name, self.record_names()[misfit.run])
+            };
+            let names = of.iter().map(name).collect();
             let x = Axis::linear("measured \u{2212} fitted", &*shown.of_differences);
             let mut panel = Panel::new(x, Axis::names("", names));
             let at = |i: usize, si: f64| (si / shown.unit.scale, i as f64);
@@ -78,6 +80,11 @@ impl FitNetworkAnswer {
         let note = "a mean far from zero, or an rms far above sigma, is of the network or of a sensor, \
                     and not of noise";
         Figure { title: "Residuals".to_owned(), note: note.to_owned(), panels }
+    }
+
+    /// The names of the records without the folders that all have in common.
+    fn record_names(&self) -> Vec<String> {
+        without_folders(&self.task.runs.iter().map(|run| run.name.clone()).collect::<Vec<_>>())
     }
 
     /// Two panels for each measured type: values and residuals.
@@ -121,7 +128,7 @@ impl FitNetworkAnswer {
             notes.push(format!("the {shown} of {all} columns with the largest misfit are drawn"));
         }
         let note = notes.join(if small { "; " } else { "\n" });
-        let title = if small { short(&run.name) } else { run.name.clone() };
+        let title = if small { self.record_names().swap_remove(i) } else { run.name.clone() };
         Figure { title, note, panels }
     }
 
@@ -159,11 +166,6 @@ impl FitNetworkAnswer {
         rows.dedup();
         rows
     }
-}
-
-/// The name of a file without its folders.
-fn short(name: &str) -> String {
-    name.rsplit(['/', '\\']).next().unwrap_or(name).to_owned()
 }
 
 /// Each type once, in the order in which they come.

@@ -242,7 +242,7 @@ fn sensors(answer: &FitNetworkAnswer, all: &[usize]) -> TextTable {
 }
 
 /// The name of a column, with its record if there are several.
-pub(super) fn column_name(answer: &FitNetworkAnswer, misfit: &ColumnMisfit) -> String {
+fn column_name(answer: &FitNetworkAnswer, misfit: &ColumnMisfit) -> String {
     let name = &answer.task.runs[misfit.run].columns[misfit.column].name;
     let records: Vec<String> = answer.task.runs.iter().map(|run| run.name.clone()).collect();
     match records.len() > 1 {

@@ -5,6 +5,7 @@ mod estimate;
 mod figure;
 mod model;
 mod page;
+mod report;
 mod request;
 
 use std::path::{Path, PathBuf};

@@ -17,7 +17,6 @@ use super::estimate::{to_error, with_error};
 use super::model::Model;
 use super::request::{Reference, Request};
 use super::{FitStepAnswer, StepColumn};
-use crate::about;
 use crate::messages;
 use crate::scale;
 use crate::words::difference;
@@ -33,7 +32,7 @@ impl Page for FitStepAnswer {
         let name = shortened(&plain(&self.request.name), LONGEST_NAME);
         let mut text =
             Text::titled(format!("{name}: {} rows from {from} s to {to} s", record.time.len()));
-        text.line("T(t) = T_f + (T_i - T_f) exp(-t / t_RC), t from the first row");
+        text.line(LAW);
         fits(self, text.section());
         intervals(self, text.section());
         rises(self, text.section());
@@ -75,7 +74,7 @@ impl Page for FitStepAnswer {
     }
 
     fn more(&self) -> Report {
-        about::of_command(&[], &self.command)
+        self.report()
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -116,6 +115,9 @@ impl Page for FitStepAnswer {
     }
 }
 
+/// The law that is fitted.
+pub(super) const LAW: &str = "T(t) = T_f + (T_i - T_f) exp(-t / t_RC), t from the first row";
+
 /// Longest name of a file in a sentence.
 const LONGEST_NAME: usize = 40;
 
@@ -138,7 +140,7 @@ fn table(answer: &FitStepAnswer, text: &mut Text, cells: &[Cells<'_>]) {
     }
 }
 
-fn fits(answer: &FitStepAnswer, text: &mut Text) {
+pub(super) fn fits(answer: &FitStepAnswer, text: &mut Text) {
     let unit = &answer.request.unit;
     let temperature =
         |t: &Estimated| with_error(unit.from_si(t.value), t.standard_error / unit.scale);
@@ -156,7 +158,7 @@ fn fits(answer: &FitStepAnswer, text: &mut Text) {
 }
 
 /// Adds the intervals of the numbers.
-fn intervals(answer: &FitStepAnswer, text: &mut Text) {
+pub(super) fn intervals(answer: &FitStepAnswer, text: &mut Text) {
     let unit = &answer.request.unit;
     let range = |t: &Estimated, of: &dyn Fn(f64) -> f64| {
         let (low, high) = t.interval();
@@ -181,7 +183,7 @@ fn intervals(answer: &FitStepAnswer, text: &mut Text) {
 }
 
 /// Adds dT and, with a capacity, the numbers that follow from it.
-fn rises(answer: &FitStepAnswer, text: &mut Text) {
+pub(super) fn rises(answer: &FitStepAnswer, text: &mut Text) {
     text.sentence("", &reference(answer));
     if let Some(capacity) = &answer.request.capacity {
         let capacity = with_error(capacity.value, capacity.sigma());
@@ -213,11 +215,11 @@ fn rises(answer: &FitStepAnswer, text: &mut Text) {
 }
 
 /// The smaller error of those that exist, which gives the number of digits.
-fn least(part: &Parted) -> f64 {
+pub(super) fn least(part: &Parted) -> f64 {
     if part.systematic > 0.0 { part.random.min(part.systematic) } else { part.random }
 }
 
-fn error(error: f64) -> String {
+pub(super) fn error(error: f64) -> String {
     to_error(error, error)
 }
 
@@ -245,7 +247,7 @@ fn reference(answer: &FitStepAnswer) -> String {
 }
 
 /// Adds the bias of the method itself.
-fn bias(answer: &FitStepAnswer, text: &mut Text) {
+pub(super) fn bias(answer: &FitStepAnswer, text: &mut Text) {
     let Some(model) = &answer.model else {
         text.sentence(
             "",
