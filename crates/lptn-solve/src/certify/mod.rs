@@ -80,7 +80,8 @@ pub enum Uncertified {
         format!("`{name}` {because}: its error has no proven bound"),
         help "run it without --certify: `lptn verify` compares it with a finer run",
         class lptn_units::Class::No;
-    /// The law of an element has no bounds, as between two regimes or near a division by zero; its name and the time in s.
+    /// The law of an element has no bounds, as between two regimes or near a division by zero; its
+    /// name and the time in s.
     Law { name: String, time: f64 } = "certify::law",
         format!(
             "the heat of `{name}` has no bounds at {} s: its law decides by a value there, or has \

@@ -98,7 +98,7 @@ impl<'a> Pieces<'a> {
             slopes
         });
         constant.iter().for_each(|slopes| bound.set_matrix(slopes));
-        let cubics = system.network().ends_of_cubics(from, rows.end());
+        let cubics = system.network().ends_of_cubics(from, rows.end().unwrap_or(from));
         let mut breaks = results.as_ref().map_or(Vec::new(), |results| results.breaks().to_vec());
         breaks.extend(cubics);
         breaks.sort_by(f64::total_cmp);

@@ -43,9 +43,9 @@ impl<'a> Rows<'a> {
         self.times.len()
     }
 
-    /// The time of the last row in s, the end of the run.
-    pub(super) fn end(&self) -> f64 {
-        self.times[self.times.len() - 1]
+    /// The time of the last row in s, the end of the run; `None` without rows.
+    pub(super) fn end(&self) -> Option<f64> {
+        self.times.last().copied()
     }
 
     pub(super) fn time(&self, row: usize) -> f64 {
