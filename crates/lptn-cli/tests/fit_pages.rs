@@ -95,7 +95,7 @@ fn analytic_the_page_of_an_inference_begins_with_its_value() {
     assert!((rms - 1.0).abs() < 0.45, "{rms}");
 }
 
-/// Records of one name are told apart by their folders, in titles and at bars.
+/// Records of one name have their folders in titles and at bars.
 #[test]
 fn records_of_one_name_have_their_folders() {
     let folder = Folder::with(

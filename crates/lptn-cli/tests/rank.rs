@@ -71,8 +71,8 @@ fn a_parameter_without_effect_is_listed() {
 }
 
 /// 10 % of 0 W is nothing, which is not "no effect": 1 W more into the core warms it by
-/// 0.05 K/W + 1 / (4 W/K), over steady states and over a run that is long enough. 1 kW is no small
-/// change: 0.001 kW is the largest power of ten that warms by 1 K at most.
+/// 0.05 K/W + 1 / (4 W/K), over steady states and over a run that is long enough. 1 kW is not small:
+/// 0.001 kW is the largest power of ten that warms by 1 K at most.
 #[test]
 fn a_value_of_zero_is_changed_by_a_little_of_its_unit() {
     let text = CHAIN

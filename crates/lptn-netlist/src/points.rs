@@ -24,7 +24,7 @@ pub(crate) struct Axis<'k> {
 
 /// The warning about a temperature over time that is far from its neighbours.
 fn outlying(fields: &Fields<'_>, points: &PlacedNumbers) -> Option<Diagnostic> {
-    let (first, text) = points.outlying().filter(|_| points.ty.absolute)?;
+    let (first, text) = points.ty.absolute.then(|| points.outlying())??;
     let message = format!("{} {text}", fields.owner.words());
     let help = "a broken wire, or a digit lost? correct the cell, or remove its row";
     let warning = Diagnostic::warning("netlist::csv_outlier", message);

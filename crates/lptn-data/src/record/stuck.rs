@@ -38,7 +38,9 @@ pub(crate) fn stuck(values: &[f64]) -> Vec<usize> {
     }
     let step = resolution(values);
     let jumped = runs(values).into_iter().filter(|run| jump(values, run).1 > STEPS * step);
-    jumped.filter(|run| is_stuck(values, run, step)).flatten().collect()
+    let jumped: Vec<Range<usize>> = jumped.collect();
+    let Some(others) = Others::of(values, &jumped) else { return Vec::new() };
+    jumped.into_iter().filter(|run| others.show(jump(values, run), step)).flatten().collect()
 }
 
 /// The runs of one number that do not begin with the first row.
@@ -59,22 +61,44 @@ fn jump(values: &[f64], run: &Range<usize>) -> (f64, f64) {
     (into.min(out), into.max(out))
 }
 
-fn is_stuck(values: &[f64], run: &Range<usize>, step: f64) -> bool {
-    let (least, most) = jump(values, run);
-    let is_other = |value: &f64| value.total_cmp(&values[run.start]).is_ne();
-    let others: Vec<f64> = values.iter().copied().filter(is_other).collect();
-    if others.len() < FEWEST {
-        return false;
+/// All values that differ from the numbers of the runs that a jump begins or ends.
+struct Others {
+    noise: f64,
+    scatter: f64,
+    /// The largest less the smallest.
+    range: f64,
+    /// Changes from a row to the next, rising, without those of 0.
+    changes: Vec<f64>,
+}
+
+impl Others {
+    /// `None` if there are too few, or no runs.
+    fn of(values: &[f64], jumped: &[Range<usize>]) -> Option<Self> {
+        let mut numbers: Vec<f64> = jumped.iter().map(|run| values[run.start]).collect();
+        numbers.sort_by(f64::total_cmp);
+        let is_other = |v: &f64| numbers.binary_search_by(|number| number.total_cmp(v)).is_err();
+        let others: Vec<f64> = values.iter().copied().filter(is_other).collect();
+        if others.len() < FEWEST || jumped.is_empty() {
+            return None;
+        }
+        let triples = values.windows(3).filter(|w| w.iter().all(is_other));
+        let bends = triples.map(|w| (w[1] - 0.5 * (w[0] + w[2])).abs());
+        let low = others.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = others.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let changes = others.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+        let mut changes: Vec<f64> = changes.filter(|change| *change > 0.0).collect();
+        changes.sort_by(f64::total_cmp);
+        let (noise, scatter) = (noise(values, is_other), 1.4826 * median(bends.collect()));
+        Some(Self { noise, scatter, range: high - low, changes })
     }
-    let triples = values.windows(3).filter(|w| w.iter().all(is_other));
-    let scatter = 1.4826 * median(triples.map(|w| (w[1] - 0.5 * (w[0] + w[2])).abs()).collect());
-    let noisy = noise(values, is_other) > NOISY * step && most > SCATTER * scatter;
-    let low = others.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = others.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let changes = others.windows(2).map(|pair| (pair[1] - pair[0]).abs());
-    let small = changes.filter(|change| *change > 0.0 && SCATTER * change < least).count();
-    let far = least > KELVINS.max(SPAN * (high - low)) && small >= CHANGES;
-    noisy || far
+
+    /// True if they show that a run with these jumps at its ends is stuck.
+    fn show(&self, (least, most): (f64, f64), step: f64) -> bool {
+        let noisy = self.noise > NOISY * step && most > SCATTER * self.scatter;
+        let small = self.changes.partition_point(|change| SCATTER * change < least);
+        let far = least > KELVINS.max(SPAN * self.range) && small >= CHANGES;
+        noisy || far
+    }
 }
 
 /// The smallest distance of two numbers: the step of the instrument, or less if few rows show it.

@@ -10,10 +10,10 @@ use crate::infer::error::InferError;
 use crate::infer::task::InferTask;
 use crate::network::MeasuredColumn;
 
-/// The change is looked for among so many rows on each side of the time at which the run failed.
+/// Rows on each side of the time at which the run failed, among which the change is searched.
 const ROWS: usize = 10;
 
-/// A change counts if it is larger than so many times the usual one of its column.
+/// A change counts if it is larger than this multiple of the usual one of its column.
 const USUAL: f64 = 20.0;
 
 /// A change of a column from a row to the next.
@@ -52,9 +52,11 @@ pub(crate) fn named(task: &InferTask, error: InferError) -> InferError {
 fn changes(column: &MeasuredColumn, near: usize) -> Vec<Change<'_>> {
     let read: Vec<(usize, f64)> =
         column.values.iter().copied().enumerate().filter(|(_, value)| !value.is_nan()).collect();
-    let mut sizes: Vec<f64> = read.windows(2).map(|pair| (pair[1].1 - pair[0].1).abs()).collect();
+    // rounded readings often do not change
+    let sizes = read.windows(2).map(|pair| (pair[1].1 - pair[0].1).abs());
+    let mut sizes: Vec<f64> = sizes.filter(|size| *size > 0.0).collect();
     sizes.sort_by(f64::total_cmp);
-    let usual = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+    let Some(usual) = sizes.get(sizes.len() / 2).copied() else { return Vec::new() };
     let close = read.windows(2).filter(|pair| pair[1].0.abs_diff(near) <= ROWS);
     let change = |pair: &[(usize, f64)]| {
         let ((_, from), (row, to)) = (pair[0], pair[1]);
