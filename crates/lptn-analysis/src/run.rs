@@ -140,6 +140,12 @@ impl RunAnalysis {
         Self(Transient { certify: true, certified: Some(columns), ..self.0 })
     }
 
+    /// Keeps the states at every time: see [`Solution::margin_gradient`].
+    #[must_use]
+    pub fn with_trajectory(self) -> Self {
+        Self(Transient { trajectory: true, ..self.0 })
+    }
+
     /// Keeps the heat balance of a node or boundary.
     #[must_use]
     pub fn balancing(self, balance: Option<End>) -> Self {

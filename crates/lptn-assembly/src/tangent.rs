@@ -28,6 +28,22 @@ impl ThermalSystem {
         Ok(())
     }
 
+    /// Adds the change of the sum of those heats, each times a weight for its vertex, per SI unit of
+    /// each parameter, before they are passed on. From inputs read and nodes recovered.
+    ///
+    /// # Errors
+    /// As [`ThermalSystem::tangent_heat`].
+    pub fn add_tangent_heat(
+        &self,
+        tangents: &mut Tangents,
+        work: &Workspace,
+        weights: &[f64],
+        out: &mut [f64],
+    ) -> Result<(), InputError> {
+        let at = (&work.scope, &work.temperature[..]);
+        tangents.add_heat_against(self.network(), at, weights, out)
+    }
+
     /// True if temperatures of nodes follow from others without storage: then their sensitivities
     /// need [`ThermalSystem::tangent_heat`] too.
     pub fn has_massless(&self) -> bool {

@@ -1,5 +1,6 @@
 """Gradients against closed forms, and with optimisers."""
 
+import cmath
 import importlib.util
 import math
 import unittest
@@ -19,6 +20,17 @@ def closed(power, conductance):
     last = 25 + power / conductance * (1 - decay)
     rise = power / conductance * (1 - 500 / conductance / STOP * (1 - decay))
     return np.array([last, 25 + rise, 60 - last, conductance * rise])
+
+
+def heated(power, conductance):
+    """Last temperature of the block in degC, and the switches of a heater between 34 and 35 degC."""
+    tau, time, rise, on, switches = 500 / conductance, 0, 0, True, 0
+    while True:
+        target, threshold = (power / conductance, 10) if on else (0, 9)
+        lasts = tau * cmath.log((rise - target) / (threshold - target))
+        if (time + lasts).real >= 1000:
+            return 25 + target + (rise - target) * cmath.exp(-(1000 - time) / tau), switches
+        time, rise, on, switches = time + lasts, threshold, not on, switches + 1
 
 
 RESULTS = ["last(block.T)", "mean(block.T)", "margin(warm)", "mean(cooling.Q)"]
@@ -120,10 +132,33 @@ class Gradients(unittest.TestCase):
         rows = jax.jacrev(both)(np.array([40.0, 2.0]))
         np.testing.assert_allclose(rows, [[0.5, -10], [1, 0]], atol=1e-8)
 
-    def test_a_switching_network_is_refused(self):
+    def test_a_run_through_30_switches_has_its_closed_form(self):
+        net = lptn.Network()
+        net.parameter("P", "40 W")
+        net.parameter("G", "2 W/K")
+        net.boundary("air", T="25 degC")
+        net.node("block", C="500 J/K", T0="25 degC")
+        net.path("resistor", "cooling", "block", "air", G="G")
+        net.add("control", "heater", sense="block", on_below="34 degC", off_above="35 degC",
+                start="on")
+        net.source("heat", "block", P="P * heater")
+        function = net.value_and_grad(
+            "last(block.T)", by=["P", "G"], over="run", stop="1000 s", tolerance="1e-10 K"
+        )
+        x = [40.0, 2.0]
+        value, gradient = function(x)
+        # an imaginary step gives the derivative without a difference
+        step = 1e-30
+        self.assertAlmostEqual(value, heated(*x)[0].real, places=8)
+        slopes = [heated(x[0] + step * 1j, x[1])[0].imag, heated(x[0], x[1] + step * 1j)[0].imag]
+        np.testing.assert_allclose(gradient, np.array(slopes) / step, rtol=1e-7)
+        self.assertGreater(heated(*x)[1], 30)
+
+    def test_a_pipe_is_refused(self):
         net = block()
-        net.add("control", "fan", sense="block", on_above="40 degC", off_below="38 degC", start="off")
-        net.path("resistor", "blown", "block", "air", G="1 [W/K] * fan + 0.001 [W/K]")
+        net.boundary("inlet", T="20 degC")
+        net.add("pipe", "supply", **{"from": "inlet", "to": "block"}, mcp="1 W/K", C="9 J/K", T0="20 degC")
+        net.path("advection", "out", "block", "air", mcp="1 W/K")
         function = net.value_and_grad("last(block.T)", by="P")
         with self.assertRaises(lptn.Error) as caught:
             function(100.0)

@@ -6,8 +6,7 @@
 //!
 //! Derivatives by parameters are those of the sensitivities. Derivatives by values of laws take one
 //! seed at a time (`network/fields.rs`), so that an element needs no parameter to be ranked. Cells
-//! and parts of a path to a face sum to their whole. A run has no adjoint: going back in time would
-//! need the whole run in memory, and its parameters have forward sensitivities.
+//! and parts of a path to a face sum to their whole. The adjoint of a run is in `backward`.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::{FactorError, Pattern, linear};

@@ -392,6 +392,7 @@ impl<'a> Recorder<'a> {
             remembered: self.remembered,
             growth: 1.0,
             certificate: None,
+            trajectory: None,
             unresolved: None,
             undecided: None,
             made_up: 1.0,

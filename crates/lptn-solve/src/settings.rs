@@ -51,6 +51,8 @@ pub struct Transient {
     /// The parameters by which temperatures are differentiated, each once: see
     /// [`crate::Solution::sensitivity`].
     pub sensitivities: Vec<ParameterId>,
+    /// True if the states at every time are kept, for [`crate::Solution::margin_gradient`].
+    pub trajectory: bool,
     /// True if proven bounds on the errors are computed: see [`crate::Solution::certificate`].
     pub certify: bool,
     /// The columns other than temperatures of nodes whose rows get bounds too.
@@ -111,6 +113,7 @@ impl Transient {
             balance: None,
             controls: Vec::new(),
             sensitivities: Vec::new(),
+            trajectory: false,
             certify: false,
             certified: None,
             around: None,

@@ -1,6 +1,7 @@
 //! The result of a transient.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use lptn_assembly::ThermalSystem;
 use lptn_integrate::Statistics;
@@ -28,6 +29,7 @@ use crate::sensitivity_rows::SensitivityRows;
 use crate::snapshot::Snapshot;
 use crate::solution_error::SolutionError;
 use crate::state::State;
+use crate::trajectory::Trajectory;
 use crate::unbounded::Unbounded;
 use crate::watch::Watched;
 use crate::window::{ReportSeen, WindowSeen};
@@ -86,6 +88,8 @@ pub struct Solution {
     pub(crate) growth: f64,
     /// Bounds on the errors, if they were asked for.
     pub(crate) certificate: Option<Result<Certificate, Uncertified>>,
+    /// The states at every time, if they were kept.
+    pub(crate) trajectory: Option<Arc<Trajectory>>,
     /// The first time in s at which a step was accepted that passes a bend over temperature.
     pub(crate) unresolved: Option<f64>,
     /// The first switch that the error of the run decides.

@@ -5,6 +5,7 @@ mod finish;
 mod fold;
 mod guarded;
 mod piped;
+mod remembered;
 mod rest;
 mod sampled;
 mod switches;
@@ -34,6 +35,7 @@ use crate::stepper::{Inputs, Stepper, stepper};
 use crate::stop_reason::StopReason;
 use crate::tangent::Tangent;
 use crate::times::{Segment, check_resolution, segments, snap};
+use crate::trajectory::Trajectory;
 use crate::unsolved::Unsolved;
 use crate::window::Window;
 
@@ -91,7 +93,7 @@ impl Transient {
                 (grows, coarse) = (solution.growth, Some(solution));
                 continue;
             }
-            if !self.sensitivities.is_empty() {
+            if !self.sensitivities.is_empty() || self.trajectory {
                 return Err(TransientError::Settings(SettingsError::Sensitivity(
                     NoTangents::Leaps,
                 )));
@@ -194,6 +196,8 @@ pub(crate) struct Run<'a> {
     pipes: Option<Shared>,
     /// `None` unless bounds on the errors are asked for.
     certifier: Option<Result<Certifier<'a>, Uncertified>>,
+    /// `None` unless it is kept.
+    trajectory: Option<Trajectory>,
     /// True if temperatures may bend at the present time, for what enters a pipe.
     bends: bool,
     /// Steps in a row, each after refused ones, that are too short to make progress.
@@ -235,9 +239,8 @@ impl<'a> Run<'a> {
             .network()
             .has_events()
             .then(|| Switching::new(system, &settings.controls, settings.tolerance));
-        let care = effort.care;
-        let finer = system.network().has_events() || care == Care::Leaps;
-        let care = if finer { Care::Leaps } else { care };
+        let finer = system.network().has_events() || effort.care == Care::Leaps;
+        let care = if finer { Care::Leaps } else { effort.care };
         let grows = effort.grows;
         let options = settings.options(system, (finer, grows), curved.as_ref());
         let guard = Guard::of(system, options.tolerance);
@@ -250,18 +253,19 @@ impl<'a> Run<'a> {
         if !carried.is_empty() {
             integrator.set_sensitivities(&carried).map_err(TransientError::Integrator)?;
         }
-        let tolerance = settings.tolerance;
+        let trajectory = settings.trajectory.then(|| Trajectory::new(system.network()));
         Ok(Self {
             integrator,
             method,
             recorder,
             initial,
             books,
-            tolerance,
+            tolerance: settings.tolerance,
             due: Vec::new(),
             switching,
             pipes,
             certifier,
+            trajectory,
             bends: true,
             curved,
             guard,
@@ -323,7 +327,9 @@ impl<'a> Run<'a> {
     fn begin(&mut self, segment: Segment, first: bool) -> Result<(), Break> {
         self.integrator.system_mut().enter(segment.inside());
         let due = std::mem::take(&mut self.due);
+        let before = self.before_switch(f64::NAN);
         self.switch(&due, first)?;
+        self.remember_switch(&due, before)?;
         self.sample(segment, first)?;
         self.enter(segment)
     }
@@ -334,6 +340,7 @@ impl<'a> Run<'a> {
         self.begin_to_guard();
         self.bends = true;
         self.recorder.enter(segment, self.switching.as_ref().map(|switching| &switching.positions));
+        self.remember_segment(segment);
         if self.method == Method::OneStep {
             self.integrator.system_mut().draw_line((segment.from, segment.to));
             self.recorder.draw_line();
@@ -369,6 +376,7 @@ impl<'a> Run<'a> {
         let row = self.recorder.written();
         self.recorder.step(self.integrator.as_mut(), step.from, to).map_err(Break::Failed)?;
         self.bound_errors((step.from, to), segment);
+        self.remember_step(step.from, to)?;
         if let Some(switching) = &mut self.switching {
             switching.reach(to, self.recorder.span(), self.recorder.written() > row);
         }
@@ -391,7 +399,9 @@ impl<'a> Run<'a> {
             self.bends = edge.jumps;
             return Ok(());
         }
+        let before = self.before_switch(if to >= armed { armed } else { f64::NAN });
         if happens && (self.switch(&due, false)? || !due.is_empty()) {
+            self.remember_switch(&due, before)?;
             self.integrator.restart(None).map_err(|e| self.failed(e))?;
             return self.enter(Segment { from: to, to: segment.to });
         }

@@ -8,6 +8,7 @@
 )]
 
 mod accuracy;
+mod backward;
 mod balance;
 mod between_kinks;
 mod beyond_tables;

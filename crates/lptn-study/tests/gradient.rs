@@ -110,9 +110,9 @@ fn results_without_an_exact_gradient_are_refused() {
     assert_eq!(code("steady", bend, CONSTANT), "gradient::bends");
     let over = "T = \"time_over(block.T, 30 [degC])\"";
     assert_eq!(code("run", over, CONSTANT), "gradient::functional");
-    let control = "[control]\nheater = { sense = \"block\", on_below = \"30 degC\", off_above = \"35 \
-                   degC\", start = \"on\" }\n[source]\nheat = { into = \"block\", P = \"P * heater\" }\n";
-    assert_eq!(code("run", "T = \"last(block.T)\"", control), "gradient::differences");
+    let pipe = "[pipe]\nsupply = { from = \"air\", to = \"block\", mcp = \"1 W/K\", C = \"10 \
+                J/K\", T0 = \"25 degC\" }\n[advection]\nout = { from = \"block\", to = \"air\", mcp = \"1 W/K\" }\n";
+    assert_eq!(code("run", "T = \"last(block.T)\"", pipe), "gradient::differences");
 }
 
 /// The power is on from P seconds over 1 W on, and parameters move that time.

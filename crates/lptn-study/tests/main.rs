@@ -9,6 +9,7 @@
 
 mod common;
 mod gradient;
+mod gradient_events;
 mod rank;
 mod size;
 mod size_choices;

@@ -94,6 +94,16 @@ impl Content {
         self.node
     }
 
+    /// True if it may change with a variable of a pass.
+    pub(super) fn changes_in(&self, pass: usize) -> bool {
+        let any = |slopes: &[[f64; PASS]]| slopes[pass].iter().any(|slope| slope.abs() > 0.0);
+        let change = match &self.change {
+            Change::Constant(slopes) | Change::Scaled(slopes) => any(slopes),
+            Change::Parts(_) => true,
+        };
+        change || any(&self.initial)
+    }
+
     /// `dH` in J for one pass, at a temperature in K.
     fn at(&self, network: &Network, pass: (usize, &mut Pass), temperature: f64) -> [f64; PASS] {
         let (index, pass) = pass;
@@ -220,12 +230,43 @@ impl Tangents {
         let nodes = network.nodes().len();
         out.fill(0.0);
         for (index, (first, count)) in self.spans().enumerate() {
-            for content in &self.contents {
-                let node = content.node.index();
-                let change =
-                    content.at(network, (index, &mut self.passes[index]), temperatures[node]);
+            self.each_content(index, network, temperatures, &mut |node, change| {
                 (0..count).for_each(|k| out[(first + k) * nodes + node] = change[k]);
-            }
+            });
+        }
+    }
+
+    /// Adds the change of the sum of those heat contents, each times a weight for its node, per SI
+    /// unit of each variable.
+    pub fn add_contents_against(
+        &mut self,
+        (network, temperatures): (&Network, &[f64]),
+        weights: &[f64],
+        out: &mut [f64],
+    ) {
+        for (index, (first, count)) in self.spans().enumerate() {
+            let sums = &mut out[first..first + count];
+            self.each_content(index, network, temperatures, &mut |node, change| {
+                sums.iter_mut().zip(change).for_each(|(sum, slope)| *sum += weights[node] * slope);
+            });
+        }
+    }
+
+    /// Calls `each` with a node and the change of its heat content, for all that change with a
+    /// variable of a pass.
+    fn each_content(
+        &mut self,
+        index: usize,
+        network: &Network,
+        temperatures: &[f64],
+        each: &mut dyn FnMut(usize, &[f64; PASS]),
+    ) {
+        let Self { passes, contents, .. } = self;
+        let pass = &mut passes[index];
+        for position in 0..pass.reads.contents.len() {
+            let content = &contents[pass.reads.contents[position]];
+            let node = content.node.index();
+            each(node, &content.at(network, (index, pass), temperatures[node]));
         }
     }
 }

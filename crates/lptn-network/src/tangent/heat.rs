@@ -31,12 +31,55 @@ impl Tangents {
         out.fill(0.0);
         let vertices = temperatures.len();
         for (index, (first, count)) in self.spans().enumerate() {
-            self.read_inputs(index, network, scope, temperatures)?;
             let block = &mut out[first * vertices..(first + count) * vertices];
-            self.add_conductors(index, network, (scope, temperatures), block)?;
-            self.add_sources(index, network, (scope, temperatures), block)?;
+            let each = &mut |vertex: usize, slopes: &[f64; PASS]| {
+                for (block, slope) in block.chunks_mut(vertices).zip(slopes) {
+                    block[vertex] += slope;
+                }
+            };
+            self.each_heat(index, network, (scope, temperatures), each)?;
         }
         Ok(())
+    }
+
+    /// Adds the change of the sum of those heats, each times a weight for its vertex, per SI unit of
+    /// each variable: the work grows with the elements that depend on a variable, not with their
+    /// number times that of the variables.
+    ///
+    /// # Errors
+    /// As [`Tangents::heat`].
+    pub fn add_heat_against(
+        &mut self,
+        network: &Network,
+        (scope, temperatures): (&Evaluation, &[f64]),
+        weights: &[f64],
+        out: &mut [f64],
+    ) -> Result<(), InputError> {
+        for (index, (first, count)) in self.spans().enumerate() {
+            let sums = &mut out[first..first + count];
+            let each = &mut |vertex: usize, slopes: &[f64; PASS]| {
+                sums.iter_mut()
+                    .zip(slopes)
+                    .for_each(|(sum, slope)| *sum += weights[vertex] * slope);
+            };
+            self.each_heat(index, network, (scope, temperatures), each)?;
+        }
+        Ok(())
+    }
+
+    /// Calls `each` with a vertex and the change of a heat that it receives, for every heat that
+    /// changes with a variable of a pass.
+    fn each_heat(
+        &mut self,
+        index: usize,
+        network: &Network,
+        (scope, temperatures): (&Evaluation, &[f64]),
+        each: &mut dyn FnMut(usize, &[f64; PASS]),
+    ) -> Result<(), InputError> {
+        self.read_inputs(index, network, scope, temperatures)?;
+        let pass = &mut self.passes[index];
+        pass.each_conductor(network, (scope, temperatures), each)?;
+        pass.each_source(network, (scope, temperatures), each)
     }
 
     /// Takes the time and the signals of `scope`, and the temperatures of the boundaries.
@@ -47,7 +90,7 @@ impl Tangents {
         scope: &Evaluation,
         temperatures: &[f64],
     ) -> Result<(), InputError> {
-        let Pass { slots, stack, boundaries } = &mut self.passes[index];
+        let Pass { slots, stack, boundaries, reads } = &mut self.passes[index];
         let layout = scope.layout();
         let mut copy = |slot: u32| slots[slot as usize] = Slope::constant(scope.slot(slot));
         [slot::TIME, slot::SEGMENT].into_iter().for_each(&mut copy);
@@ -63,7 +106,7 @@ impl Tangents {
                 slots[now as usize] = Slope::variable(scope.slot(now), k);
             }
         }
-        for &id in &self.signals {
+        for &id in &reads.signals {
             if let Course::Expression(value) = &network.signals()[id.index()].course {
                 let dual = value.on(slots, stack);
                 slots[layout.signal(id) as usize] =
@@ -72,27 +115,27 @@ impl Tangents {
         }
         let given = &temperatures[network.nodes().len()..];
         boundaries.iter_mut().zip(given).for_each(|(dual, t)| *dual = Slope::constant(*t));
-        for &id in &self.boundaries {
+        for &id in &reads.boundaries {
             let dual = network.boundaries()[id.index()].temperature.on(slots, stack);
             boundaries[id.index()] =
                 network.finite(dual, (Item::Boundary(id), Field::Temperature), scope)?;
         }
         Ok(())
     }
+}
 
-    fn add_conductors(
+impl Pass {
+    fn each_conductor(
         &mut self,
-        index: usize,
         network: &Network,
         (scope, temperatures): (&Evaluation, &[f64]),
-        out: &mut [f64],
+        each: &mut dyn FnMut(usize, &[f64; PASS]),
     ) -> Result<(), InputError> {
-        let pass = &mut self.passes[index];
-        for &id in &self.conductors {
+        let Self { slots, stack, boundaries, reads } = self;
+        for &id in &reads.conductors {
             let conductor = &network.conductors()[id.index()];
             let ends = [conductor.from, conductor.to].map(|end| network.vertex(end));
             let dependence = network.parts.dependence(id);
-            let Pass { slots, stack, boundaries } = pass;
             let dual = |vertex: usize| of_vertex(vertex, network, boundaries, temperatures);
             place_ends(slots, &dependence, ends, &dual);
             let (from, to) = (dual(ends[0]), dual(ends[1]));
@@ -101,21 +144,20 @@ impl Tangents {
             let received =
                 received.map_err(|failed| network.failed(Item::Conductor(id), failed, scope))?;
             for (vertex, heat) in ends.into_iter().zip(received) {
-                add(out, vertex, temperatures.len(), &heat.derivatives);
+                each(vertex, &heat.derivatives);
             }
         }
         Ok(())
     }
 
-    fn add_sources(
+    fn each_source(
         &mut self,
-        index: usize,
         network: &Network,
         (scope, temperatures): (&Evaluation, &[f64]),
-        out: &mut [f64],
+        each: &mut dyn FnMut(usize, &[f64; PASS]),
     ) -> Result<(), InputError> {
-        let Pass { slots, stack, boundaries } = &mut self.passes[index];
-        for &id in &self.sources {
+        let Self { slots, stack, boundaries, reads } = self;
+        for &id in &reads.sources {
             let source = &network.sources()[id.index()];
             let dependence = &network.parts.source_dependence[id.index()];
             let dual = |vertex: usize| of_vertex(vertex, network, boundaries, temperatures);
@@ -123,8 +165,7 @@ impl Tangents {
             let power = At::new((slots, stack)).heat(&source.law);
             let power = power.map_err(|failed| network.failed(Item::Source(id), failed, scope))?;
             for &(node, share) in &source.into {
-                let shared = power.derivatives.map(|d| share * d);
-                add(out, node.index(), temperatures.len(), &shared);
+                each(node.index(), &power.derivatives.map(|d| share * d));
             }
         }
         Ok(())
@@ -153,10 +194,4 @@ fn place_ends(
 ) {
     let at = |k: usize| dual(of.vertices.get(k).map_or_else(|| ends[k], |&vertex| vertex as usize));
     place(slots, of, &at);
-}
-
-fn add(out: &mut [f64], vertex: usize, vertices: usize, derivatives: &[f64; PASS]) {
-    for (block, d) in out.chunks_mut(vertices).zip(derivatives) {
-        block[vertex] += d;
-    }
 }

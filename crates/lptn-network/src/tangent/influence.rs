@@ -1,5 +1,7 @@
 //! The values that depend on the variables of a derivative: parameters and signals.
 
+use lptn_units::Program;
+
 use super::Variable;
 use crate::id::{BoundaryId, ConductorId, ControlId, Item, NodeId, SignalId, SourceId};
 use crate::network::Network;
@@ -52,6 +54,11 @@ impl<'a> Influence<'a> {
             && value.slots().iter().any(|&slot| self.slots[slot as usize])
     }
 
+    /// The same for a program.
+    pub(super) fn program(&self, program: &Program) -> bool {
+        program.slots().iter().any(|&slot| self.slots[slot as usize])
+    }
+
     pub(super) fn signal(&self, id: SignalId) -> bool {
         self.slots[self.network.signal_slot(id) as usize]
     }
@@ -89,18 +96,19 @@ impl<'a> Influence<'a> {
     }
 
     /// The first input with a comparison that changes its truth at a time which depends on one of
-    /// the parameters.
+    /// the parameters. Comparisons of temperatures are events, not jumps.
     pub(super) fn moving_jump(&self) -> Option<Item> {
-        let moves = |value: &Value| {
-            value.programs().into_iter().flat_map(|program| program.comparisons()).any(
-                |comparison| {
-                    let slots = comparison.slots();
-                    slots.iter().any(|&s| self.slots[s as usize])
-                        && slots.iter().any(|&s| self.varies(s))
-                },
-            )
+        let parts = &self.network.parts;
+        let moves = |comparison: &Program| {
+            let slots = comparison.slots();
+            slots.iter().any(|&s| self.slots[s as usize])
+                && slots.iter().any(|&s| self.varies(s))
+                && !parts.is_switch(comparison)
         };
-        self.network.inputs().find(|(_, _, value)| moves(value)).map(|(item, _, _)| item)
+        let jumps = |value: &Value| {
+            value.programs().into_iter().flat_map(|program| program.comparisons()).any(moves)
+        };
+        self.network.inputs().find(|(_, _, value)| jumps(value)).map(|(item, _, _)| item)
     }
 
     /// True if a slot changes during a run.

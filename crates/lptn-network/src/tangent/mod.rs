@@ -1,8 +1,9 @@
 //! Derivatives of a network's values by its parameters at fixed temperatures: the right-hand sides
 //! of sensitivities.
 //!
-//! A derivative over a run exists only if no event moves with a parameter. A derivative at one
-//! moment exists at all positions of controls and comparisons, by signals too.
+//! A derivative over a run exists everywhere only if no event moves with a parameter; the adjoint of
+//! a run takes events in. A derivative at one moment exists at all positions of controls and
+//! comparisons, by signals too.
 //!
 //! Each value is evaluated on dual numbers by the same code that evaluates it on numbers, the
 //! parameters being the variables. Only values that depend on one of them are evaluated at all.
@@ -12,8 +13,11 @@ mod heat;
 mod influence;
 mod refusal;
 
+use crate::End;
 use crate::evaluation::{PASS, Slope};
-use crate::id::{BoundaryId, ConductorId, NodeId, ParameterId, SignalId, SourceId};
+use crate::id::{
+    BoundaryId, ConductorId, ControlId, NodeId, ParameterId, SignalId, SourceId, SwitchId,
+};
 use crate::network::Network;
 use crate::slot;
 use content::Content;
@@ -38,11 +42,6 @@ pub enum Variable {
 pub struct Tangents {
     variables: Vec<Variable>,
     passes: Vec<Pass>,
-    conductors: Vec<ConductorId>,
-    sources: Vec<SourceId>,
-    boundaries: Vec<BoundaryId>,
-    /// Signals that are expressions of the parameters.
-    signals: Vec<SignalId>,
     contents: Vec<Content>,
 }
 
@@ -53,6 +52,34 @@ struct Pass {
     stack: Vec<Slope>,
     /// Temperatures of all boundaries in K.
     boundaries: Vec<Slope>,
+    reads: Reads,
+}
+
+/// All that changes with a variable of one pass.
+#[derive(Clone, Debug)]
+struct Reads {
+    conductors: Vec<ConductorId>,
+    sources: Vec<SourceId>,
+    boundaries: Vec<BoundaryId>,
+    /// Signals that are expressions of the parameters.
+    signals: Vec<SignalId>,
+    /// Positions of heat contents.
+    contents: Vec<usize>,
+}
+
+impl Reads {
+    fn of(network: &Network, own: &[Variable], all: &[Variable]) -> Self {
+        let influence = Influence::new(network, own);
+        let follows =
+            |id: &SignalId| influence.signal(*id) && !all.contains(&Variable::Signal(*id));
+        Self {
+            conductors: network.conductor_ids().filter(|id| influence.conductor(*id)).collect(),
+            sources: network.source_ids().filter(|id| influence.source(*id)).collect(),
+            boundaries: network.boundary_ids().filter(|id| influence.boundary(*id)).collect(),
+            signals: network.signal_ids().filter(follows).collect(),
+            contents: Vec::new(),
+        }
+    }
 }
 
 impl Network {
@@ -66,9 +93,51 @@ impl Network {
             parameters.iter().copied().map(Variable::Parameter).collect();
         let influence = Influence::new(self, &variables);
         refusal::check_events(&influence)?;
+        self.tangents_over_time(&influence, &variables)
+    }
+
+    /// The same between events: those of controls and comparisons may move with the parameters.
+    ///
+    /// # Errors
+    /// [`NoTangents`]
+    pub fn tangents_between_events(
+        &self,
+        parameters: &[ParameterId],
+    ) -> Result<Tangents, NoTangents> {
+        let variables: Vec<Variable> =
+            parameters.iter().copied().map(Variable::Parameter).collect();
+        self.tangents_over_time(&Influence::new(self, &variables), &variables)
+    }
+
+    fn tangents_over_time(
+        &self,
+        influence: &Influence<'_>,
+        variables: &[Variable],
+    ) -> Result<Tangents, NoTangents> {
+        refusal::check_jumps(influence)?;
         refusal::check_pipes(self)?;
         refusal::check_samples(self)?;
-        self.tangents_of(&influence, &variables)
+        self.tangents_of(influence, variables)
+    }
+
+    /// True if the distance of a control from its threshold changes with a parameter at fixed
+    /// temperatures of the nodes.
+    pub fn control_follows(&self, id: ControlId, parameter: ParameterId) -> bool {
+        let influence = Influence::new(self, &[Variable::Parameter(parameter)]);
+        self.thermostat(id).is_some_and(|of| {
+            let senses = match of.sense {
+                End::Boundary(id) => influence.boundary(id),
+                End::Node(_) => false,
+            };
+            senses || influence.value(&of.on) || influence.value(&of.off)
+        })
+    }
+
+    /// True if the difference of the sides of a comparison changes with a parameter at fixed
+    /// temperatures of the nodes.
+    pub fn comparison_follows(&self, id: SwitchId, parameter: ParameterId) -> bool {
+        let influence = Influence::new(self, &[Variable::Parameter(parameter)]);
+        influence.program(&self.switches()[id.index()].difference)
     }
 
     /// The same at one moment, and by signals too. Controls and comparisons keep the positions of the
@@ -91,20 +160,21 @@ impl Network {
         refusal::check_faces(self, influence)?;
         refusal::check_patches(self, influence)?;
         let chunks = variables.chunks(PASS);
-        let mut passes: Vec<Pass> = chunks.map(|chunk| Pass::new(self, chunk, variables)).collect();
+        let mut given = self.numbers.given.clone();
+        for variable in variables {
+            if let Variable::Parameter(id) = variable {
+                given[id.index()] = true;
+            }
+        }
+        let all = (variables, &given[..]);
+        let mut passes: Vec<Pass> = chunks.map(|chunk| Pass::new(self, chunk, all)).collect();
         refusal::check_rings(self, influence, &mut passes)?;
         let contents = content::all_of(self, influence, &mut passes)?;
-        let follows =
-            |id: &SignalId| influence.signal(*id) && !variables.contains(&Variable::Signal(*id));
-        Ok(Tangents {
-            variables: variables.to_vec(),
-            passes,
-            conductors: self.conductor_ids().filter(|id| influence.conductor(*id)).collect(),
-            sources: self.source_ids().filter(|id| influence.source(*id)).collect(),
-            boundaries: self.boundary_ids().filter(|id| influence.boundary(*id)).collect(),
-            signals: self.signal_ids().filter(follows).collect(),
-            contents,
-        })
+        for (index, pass) in passes.iter_mut().enumerate() {
+            let of = contents.iter().enumerate().filter(|(_, content)| content.changes_in(index));
+            pass.reads.contents = of.map(|(position, _)| position).collect();
+        }
+        Ok(Tangents { variables: variables.to_vec(), passes, contents })
     }
 }
 
@@ -130,8 +200,8 @@ impl Tangents {
 
 impl Pass {
     /// The slots with the parameters in them, the expressions among these evaluated in their order.
-    /// Variables of other passes are constant.
-    fn new(network: &Network, own: &[Variable], all: &[Variable]) -> Self {
+    /// Variables of other passes are constant. `given` are the parameters that follow from no other.
+    fn new(network: &Network, own: &[Variable], (all, given): (&[Variable], &[bool])) -> Self {
         let layout = &network.parts.layout;
         let mut slots = vec![Slope::constant(f64::NAN); layout.len()];
         slots[slot::TIME as usize] = Slope::constant(0.0);
@@ -140,7 +210,7 @@ impl Pass {
         for id in network.parameter_ids() {
             let number = network.parameter_value(id);
             let variable = Variable::Parameter(id);
-            let given = network.numbers.given[id.index()] || all.contains(&variable);
+            let given = given[id.index()];
             let value = &network.parameters()[id.index()].value;
             let dual = match own.iter().position(|own| *own == variable) {
                 Some(index) => Slope::variable(number, index),
@@ -153,6 +223,7 @@ impl Pass {
             slots,
             stack,
             boundaries: vec![Slope::constant(f64::NAN); network.boundaries().len()],
+            reads: Reads::of(network, own, all),
         }
     }
 }

@@ -80,11 +80,16 @@ pub enum NoTangents for |say: &dyn Fn(Item, &str) -> String| at Item {
 }
 }
 
-/// Refuses parameters that move events or jumps.
+/// Refuses parameters that move events.
 pub(super) fn check_events(influence: &Influence<'_>) -> Result<(), NoTangents> {
-    if let Some(item) = influence.event() {
-        return Err(NoTangents::Events { item });
+    match influence.event() {
+        Some(item) => Err(NoTangents::Events { item }),
+        None => Ok(()),
     }
+}
+
+/// Refuses parameters that move jumps of inputs.
+pub(super) fn check_jumps(influence: &Influence<'_>) -> Result<(), NoTangents> {
     match influence.moving_jump() {
         Some(item) => Err(NoTangents::MovingJump { item }),
         None => Ok(()),

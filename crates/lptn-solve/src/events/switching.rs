@@ -189,6 +189,18 @@ impl<'a> Switching<'a> {
         ends.fold(f64::INFINITY, f64::min)
     }
 
+    /// The control whose dwell ends at a time of [`Switching::next_armed`].
+    pub(crate) fn control_armed_at(&self, time: f64) -> Option<usize> {
+        let ends = self.network.control_ids().zip(&self.since);
+        let mut ends = ends.map(|(id, since)| since + self.network.min_dwell(id));
+        ends.position(|end| (end - time).abs() <= 0.0)
+    }
+
+    /// The name of a position.
+    pub(crate) fn name(&self, position: usize) -> String {
+        self.kinds[position].name(self.network)
+    }
+
     /// The states of the controls.
     pub(crate) fn controls(&self) -> Vec<ControlState> {
         let states = self.positions.controls.iter().zip(&self.since);

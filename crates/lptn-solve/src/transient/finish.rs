@@ -1,5 +1,7 @@
 //! The solution of a run that has ended.
 
+use std::sync::Arc;
+
 use lptn_integrate::Statistics;
 
 use crate::certify::Certifier;
@@ -66,6 +68,7 @@ impl Run<'_> {
         let solution = self.recorder.into_solution(books, (statistics, events), end);
         let made_up = growth::made_up(self.grows, FINEST / self.tolerance);
         let method = Some(self.method);
+        let trajectory = self.trajectory.map(Arc::new);
         let certificate = self.certifier.map(|c| c.and_then(Certifier::finish));
         Ok(Solution {
             end_state,
@@ -76,6 +79,7 @@ impl Run<'_> {
             unresolved,
             undecided,
             certificate,
+            trajectory,
             ..solution
         }
         .with_proofs())

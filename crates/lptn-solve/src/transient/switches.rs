@@ -11,9 +11,9 @@ use crate::times::Segment;
 
 impl Transient {
     /// The integrator: pieces of the run prove the times of switches, and the one-step method has
-    /// none.
+    /// none. A trajectory of polynomials needs short steps.
     pub(super) fn integrator_for(&self, system: &ThermalSystem) -> IntegratorChoice {
-        let switches = self.certify && system.network().has_events();
+        let switches = self.certify && system.network().has_events() || self.trajectory;
         match self.integrator {
             IntegratorChoice::Auto if switches && cfg!(feature = "cvodes") => {
                 IntegratorChoice::Cvode

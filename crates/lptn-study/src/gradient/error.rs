@@ -3,7 +3,7 @@
 use lptn_analysis::{AnalysisError, RunError};
 use lptn_assembly::ChangeError;
 use lptn_network::{BuildErrors, InputError};
-use lptn_solve::{SensitiveError, SlopesError, SteadyError};
+use lptn_solve::{BackwardError, SensitiveError, SlopesError, SteadyError};
 
 lptn_units::errors! {
 /// Reason why results have no derivatives by parameters.
@@ -17,6 +17,8 @@ pub enum GradientError {
     Sensitive => SensitiveError;
     /// A result has no derivative there.
     Slopes => SlopesError;
+    /// The run has no adjoint.
+    Backward => BackwardError;
     /// A value of the network cannot be evaluated.
     Input => InputError;
     /// The results are those of a cycle.

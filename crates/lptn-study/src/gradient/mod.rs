@@ -1,13 +1,14 @@
 //! Values of reports and margins with their derivatives by parameters, for optimisers.
 //!
 //! The reports and the parameters are those of a sweep. A steady state has an adjoint, so that its
-//! gradient costs one more solution. A run has forward sensitivities, through its events: each
-//! parameter costs about as much as the run. A maximum changes as the quantity does at its time, an
-//! integral as the integral of the derivative.
+//! gradient costs one more solution. So has a run, through its events: each result costs about as much
+//! as two runs. A network without capacities has forward sensitivities. A maximum changes as the
+//! quantity does at its time, an integral as the integral of the derivative.
 //!
 //! A report becomes a limit of the network with the bound 0: limits have a time at which they are
 //! worst, and derivatives.
 
+mod backward;
 mod error;
 mod followed;
 mod over_run;
@@ -52,7 +53,11 @@ impl SweepTask {
                 if self.netlist().run_values().any(|value| network.depends_on(value, &ids)) {
                     return Err(GradientError::Times);
                 }
-                OverRun::of((&system, &ids), run, &followed, observer)?.gradients()
+                // without states there is nothing to go back through
+                if system.states().is_empty() {
+                    return OverRun::of((&system, &ids), run, &followed, observer)?.gradients();
+                }
+                backward::gradients((&system, &ids), run, &followed, observer)
             }
         }
     }

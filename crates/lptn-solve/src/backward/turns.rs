@@ -1,0 +1,154 @@
+//! The adjoint at a switch.
+
+use super::error::BackwardError;
+use super::way::{Way, add};
+use crate::events::EventKind;
+use crate::margin::Point;
+use crate::sensitive_run::step;
+use crate::stencil::slope;
+use crate::trajectory::{Cause, Turn};
+
+/// The change of the fastest temperature in K over a step of time for a derivative by it.
+const KELVIN: f64 = 0.01;
+
+/// The parts of a stretch in such a step.
+const PARTS: f64 = 8.0;
+
+impl Way<'_> {
+    /// Goes back through the switch at the end of a stretch, if there is one.
+    pub(super) fn turn(&mut self, stretch: usize) -> Result<(), BackwardError> {
+        let Some(turn) = self.sought.trajectory.stretches[stretch].end.as_ref() else {
+            return Ok(());
+        };
+        let time = turn.time;
+        // at the switch a result of this moment moves as before it
+        let arrives = self.aim.is_some_and(|aim| aim.stretch == stretch);
+        let later = self.later(stretch)?;
+        let (point, margin) = self.read(stretch, time)?;
+        let rates = self.moment().rates()?;
+        let mut moves = self.waits[stretch];
+        if arrives {
+            moves += self.along(stretch, time, &rates, Read::Margin)?;
+        } else {
+            let jumps = self.moment().jumps(turn, point.at)?;
+            moves -= jumps.iter().zip(&self.adjoint).map(|(jump, x)| jump * x).sum::<f64>();
+            moves += later.map_or(0.0, |later| margin - later);
+        }
+        match turn.cause {
+            Cause::Fixed => Ok(()),
+            Cause::Dwell { control, began } => self.wait((control, began), moves),
+            Cause::Crossing(position) => self.cross(stretch, (turn, position), (&rates, moves)),
+        }
+    }
+
+    /// The margin just after a stretch, if it is integrated.
+    fn later(&mut self, stretch: usize) -> Result<Option<f64>, BackwardError> {
+        if self.aim.is_some() {
+            return Ok(None);
+        }
+        let Some(next) = self.sought.trajectory.stretches.get(stretch + 1) else {
+            return Ok(None);
+        };
+        Ok(Some(self.read(stretch + 1, next.span().0)?.1))
+    }
+
+    /// The dwell of a control ends: its time moves as the switch at which it began, and with its
+    /// length.
+    fn wait(
+        &mut self,
+        (control, began): (usize, Option<usize>),
+        moves: f64,
+    ) -> Result<(), BackwardError> {
+        if let Some(began) = began {
+            self.waits[began] += moves;
+        }
+        let system = self.sought.margin.system;
+        let network = system.network();
+        let Some(id) = network.control_ids().nth(control) else { return Ok(()) };
+        let Some(dwell) = network.thermostat(id).map(|of| &of.min_dwell) else { return Ok(()) };
+        for (found, &parameter) in self.found.iter_mut().zip(self.sought.parameters) {
+            if !network.depends_on(dwell, &[parameter]) {
+                continue;
+            }
+            let own = network.parameter_value(parameter);
+            let by = slope(step(network, parameter), |change| -> Result<f64, BackwardError> {
+                let mut changed = network.given();
+                changed.set(parameter, own + change);
+                Ok(system.with(&changed)?.network().min_dwell(id))
+            })?;
+            *found += moves * by.unwrap_or(f64::NAN);
+        }
+        Ok(())
+    }
+
+    /// A threshold is reached; `moves` is the change of the result with the time of the switch.
+    fn cross(
+        &mut self,
+        stretch: usize,
+        (turn, position): (&Turn, usize),
+        (rates, moves): (&[f64], f64),
+    ) -> Result<(), BackwardError> {
+        let network = self.sought.margin.system.network();
+        let Some(kind) = EventKind::switching(network).nth(position) else { return Ok(()) };
+        let name = kind.name(network);
+        let speed = self.along(stretch, turn.time, rates, Read::Excess(kind))?;
+        let (point, _) = self.read(stretch, turn.time)?;
+        let weights = self.moment().excess_by_nodes(kind, &name)?;
+        let mut instant = self.moment().instant(&weights)?;
+        if let Some(positions) = &point.positions {
+            for (by, &parameter) in instant.parameters.iter_mut().zip(self.sought.parameters) {
+                *by += self.integrator.system().moment.excess_by((kind, positions), parameter)?;
+            }
+        }
+        let factor = -moves / speed;
+        if !factor.is_finite() {
+            return Err(BackwardError::Grazes { name, time: turn.time });
+        }
+        add(&mut self.adjoint, (&instant.states, factor));
+        add(&mut self.found, (&instant.parameters, factor));
+        Ok(())
+    }
+
+    /// The rate in 1/s of the margin or of the excess of a position along a stretch, just before a
+    /// time, with these rates of the states in K/s.
+    fn along(
+        &mut self,
+        stretch: usize,
+        time: f64,
+        rates: &[f64],
+        read: Read,
+    ) -> Result<f64, BackwardError> {
+        let (from, to) = self.sought.trajectory.stretches[stretch].span();
+        let fastest = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+        let longest = (to - from) / PARTS;
+        let by = if fastest > 0.0 { longest.min(KELVIN / fastest) } else { longest };
+        let (point, _) = self.read(stretch, time)?;
+        let state = self.moment().state().to_vec();
+        let margin = self.sought.margin;
+        let moment = self.moment();
+        let found = slope(by, |change| {
+            if change > 0.0 {
+                return Err(BackwardError::Unresolved { name: String::new() });
+            }
+            let moved: Vec<f64> =
+                state.iter().zip(rates).map(|(y, rate)| y + rate * change).collect();
+            let at = (time + change, point.at.1);
+            moment.go(at, &moved)?;
+            match read {
+                Read::Excess(kind) => moment.excess(kind),
+                Read::Margin => {
+                    let nodes = moment.nodes().to_vec();
+                    Ok(margin.at(&Point { at, nodes, ..point.clone() })?)
+                }
+            }
+        })?;
+        Ok(found.unwrap_or(f64::NAN))
+    }
+}
+
+/// A number along a run.
+#[derive(Clone, Copy)]
+enum Read {
+    Margin,
+    Excess(EventKind),
+}

@@ -1,0 +1,185 @@
+//! The way back through a run, stretch by stretch.
+
+use lptn_integrate::{IntegrateError, Integrator, Options};
+
+use super::error::BackwardError;
+use super::moment::Moment;
+use super::system::Adjoint;
+use super::{Aim, Sought};
+use crate::margin::Point;
+use crate::stepper::cvodes;
+
+/// Tolerance of the adjoint as a share of its largest value, for one of the run of 1 K.
+const SHARE: f64 = 0.1;
+
+/// Bounds of that tolerance; below the lower one rounding decides.
+const FINEST: f64 = 1e-12;
+const COARSEST: f64 = 1e-6;
+
+/// The largest scaled value of the adjoint stays between these two.
+const SCALED: [f64; 2] = [1e-2, 10.0];
+
+/// The part of the run after which an integrated result is taken to have its first size.
+const FIRST: f64 = 1e-3;
+
+/// The adjoint on its way.
+pub(super) struct Way<'a> {
+    pub(super) sought: &'a Sought<'a>,
+    pub(super) integrator: Box<dyn Integrator<Adjoint<'a>> + 'a>,
+    /// The result of one moment; `None` for an integrated one.
+    pub(super) aim: Option<Aim>,
+    /// The adjoint of the heat contents of the states, in the unit of the result per J.
+    pub(super) adjoint: Vec<f64>,
+    /// Derivatives by the parameters so far.
+    pub(super) found: Vec<f64>,
+    /// Running integrals that were taken.
+    taken: Vec<f64>,
+    /// For each stretch the change of the result with the time of its end that later switches add.
+    pub(super) waits: Vec<f64>,
+}
+
+impl<'a> Way<'a> {
+    /// From the moment of a result or, without one, from the end of the run for an integral.
+    pub(super) fn new(sought: &'a Sought<'a>, aim: Option<Aim>) -> Result<Self, BackwardError> {
+        let (system, stretches) = (sought.margin.system, &sought.trajectory.stretches);
+        let moment = Moment::new(system, sought.parameters)?;
+        let stretch = aim.map_or(stretches.len() - 1, |aim| aim.stretch);
+        let from = aim.map_or(stretches[stretch].span().1, |aim| aim.time);
+        let integrated = aim.is_none().then_some(sought.margin);
+        let parameters = sought.parameters.len();
+        let adjoint = Adjoint::new(moment, &stretches[stretch], (integrated, parameters));
+        let zero = vec![0.0; system.states().len()];
+        let tolerance = (SHARE * sought.solution.tolerance).clamp(FINEST, COARSEST);
+        let options = Options { tolerance, ..Options::default() };
+        let integrator = cvodes(adjoint, (-from, &zero), &options)?;
+        Ok(Self {
+            sought,
+            integrator,
+            aim,
+            adjoint: zero,
+            found: vec![0.0; parameters],
+            taken: vec![0.0; parameters],
+            waits: vec![0.0; stretches.len()],
+        })
+    }
+
+    /// The moment of the run that the adjoint is at.
+    pub(super) fn moment(&mut self) -> &mut Moment<'a> {
+        &mut self.integrator.system_mut().moment
+    }
+
+    /// The run in a stretch at a time in s, and the margin there.
+    pub(super) fn read(
+        &mut self,
+        stretch: usize,
+        time: f64,
+    ) -> Result<(Point, f64), BackwardError> {
+        let sought = self.sought;
+        let point = sought.point(self.moment(), (stretch, time))?;
+        let margin = sought.margin.at(&point)?;
+        Ok((point, margin))
+    }
+
+    /// Goes back to the start; the derivatives by the parameters.
+    pub(super) fn back(mut self) -> Result<Vec<f64>, BackwardError> {
+        let stretches = &self.sought.trajectory.stretches;
+        let last = self.aim.map_or(stretches.len() - 1, |aim| aim.stretch);
+        for stretch in (0..=last).rev() {
+            let (from, to) = stretches[stretch].span();
+            let aim = self.aim.filter(|aim| aim.stretch == stretch);
+            let to = aim.map_or(to, |aim| aim.time);
+            if to >= stretches[stretch].span().1 {
+                self.turn(stretch)?;
+            }
+            if aim.is_some() {
+                self.arrive(stretch, to)?;
+            }
+            self.pass(stretch, (from, to))?;
+        }
+        Ok(self.found)
+    }
+
+    /// Adds the derivatives of the margin at its moment.
+    fn arrive(&mut self, stretch: usize, time: f64) -> Result<(), BackwardError> {
+        let (margin, parameters) = (self.sought.margin, self.sought.parameters);
+        let (point, _) = self.read(stretch, time)?;
+        let weights = margin.by_nodes(&point, &margin.nodes())?;
+        let instant = self.moment().instant(&weights)?;
+        add(&mut self.adjoint, (&instant.states, 1.0));
+        add(&mut self.found, (&instant.parameters, 1.0));
+        if margin.nodes_alone().is_none() {
+            for (found, &parameter) in self.found.iter_mut().zip(parameters) {
+                *found += margin.directly(std::slice::from_ref(&point), parameter)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Integrates back over a part of a stretch.
+    fn pass(&mut self, stretch: usize, (from, to): (f64, f64)) -> Result<(), BackwardError> {
+        let is_zero = !self.adjoint.iter().any(|x| x.abs() > 0.0);
+        if from >= to {
+            return Ok(());
+        }
+        self.integrator.system_mut().enter(&self.sought.trajectory.stretches[stretch]);
+        let scale = if is_zero { self.first_scale(to)? } else { self.scale() };
+        self.restart(scale)?;
+        self.integrator.set_stop(-from);
+        while self.integrator.time() < -from {
+            let stepped = self.integrator.step();
+            stepped.map_err(|error| self.failed(error))?;
+            let size = largest(self.integrator.state());
+            let [low, high] = SCALED;
+            if size > high || size < low && size > 0.0 && !is_zero {
+                self.take()?;
+                let scale = self.scale();
+                self.restart(scale)?;
+            }
+        }
+        self.take()
+    }
+
+    fn failed(&mut self, error: IntegrateError) -> BackwardError {
+        self.integrator.system_mut().failure.take().unwrap_or(error.into())
+    }
+
+    /// The scale at which the largest value is 1.
+    fn scale(&self) -> f64 {
+        1.0 / largest(&self.adjoint)
+    }
+
+    /// The same after a small part of the run, if it is zero now.
+    fn first_scale(&mut self, time: f64) -> Result<f64, BackwardError> {
+        let length = self.sought.length();
+        let adjoint = self.integrator.system_mut();
+        adjoint.rescale(1.0);
+        let rate = adjoint.rate(time)?;
+        Ok(if rate > 0.0 { 1.0 / (FIRST * length * rate) } else { 1.0 })
+    }
+
+    fn restart(&mut self, scale: f64) -> Result<(), BackwardError> {
+        self.integrator.system_mut().rescale(scale);
+        let scaled: Vec<f64> = self.adjoint.iter().map(|x| scale * x).collect();
+        Ok(self.integrator.restart(Some(&scaled))?)
+    }
+
+    /// Takes the adjoint and the running integrals.
+    fn take(&mut self) -> Result<(), BackwardError> {
+        let scale = self.integrator.system().scale;
+        self.adjoint = self.integrator.state().iter().map(|x| x / scale).collect();
+        let now = self.integrator.quadratures()?.to_vec();
+        let changes = now.iter().zip(&self.taken).map(|(now, before)| (now - before) / scale);
+        self.found.iter_mut().zip(changes).for_each(|(found, change)| *found += change);
+        self.taken = now;
+        Ok(())
+    }
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, value| most.max(value.abs()))
+}
+
+/// Adds values times a factor.
+pub(super) fn add(sum: &mut [f64], (values, factor): (&[f64], f64)) {
+    sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += factor * value);
+}

@@ -1,0 +1,254 @@
+//! The states of a run at every time, and its events, for analyses that go back through it.
+//!
+//! The integrator's interpolant of a step is a polynomial of the fifth degree at most. Its values at
+//! six Chebyshev points determine it, so that a trajectory adds no error to that of the run.
+
+use lptn_network::{Network, NoTangents, Positions};
+
+/// Values that are kept of each state and step.
+const POINTS: usize = 6;
+
+/// The most memory of a trajectory in bytes.
+const MOST_BYTES: usize = 1 << 30;
+
+lptn_units::errors! {
+/// Why there is no way back through a run.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoTrajectory {
+    /// The run did not keep its trajectory, or it has no state.
+    Unknown = "gradient::trajectory", "the run did not keep its temperatures at every time";
+    /// The network has none.
+    Tangents => NoTangents;
+    /// It would take too much memory: states and steps.
+    Long { states: usize, steps: usize } = "gradient::memory",
+        format!(
+            "{steps} steps of {states} temperatures do not fit in memory, and a gradient goes back \
+             through all of them"
+        ),
+        help "take a looser tolerance, or a shorter run";
+    /// Two controls or comparisons switch at one time.
+    Together { names: [String; 2], time: f64 } = "gradient::together",
+        format!(
+            "`{}` and `{}` switch at the same time, {time} s: a parameter may part them, so that \
+             there is no gradient",
+            names[0], names[1]
+        ),
+        help "begin at another value, or use a method without derivatives";
+}
+}
+
+/// A part of a run between two breakpoints or events, in which inputs are smooth and positions stay.
+#[derive(Clone, Debug)]
+pub(crate) struct Stretch {
+    /// A time inside the segment, at which comparisons of `t` are read.
+    pub(crate) inside: f64,
+    pub(crate) positions: Option<Positions>,
+    pieces: Vec<Piece>,
+    /// The event that ends it; `None` for a breakpoint.
+    pub(crate) end: Option<Turn>,
+}
+
+/// A switch at the end of a stretch.
+#[derive(Clone, Debug)]
+pub(crate) struct Turn {
+    pub(crate) time: f64,
+    pub(crate) cause: Cause,
+    pub(crate) after: Positions,
+    /// Temperatures in K of the massless nodes after it.
+    pub(crate) branch: Vec<f64>,
+}
+
+/// The cause of a switch, which determines how its time moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Cause {
+    /// A known time: the start or a breakpoint.
+    Fixed,
+    /// The threshold of a position is reached.
+    Crossing(usize),
+    /// The dwell of a control ends. It began at the end of the stretch of this number, or at a known
+    /// time.
+    Dwell {
+        /// The number of the control.
+        control: usize,
+        /// The number of the stretch.
+        began: Option<usize>,
+    },
+}
+
+/// A step, or a part of one.
+#[derive(Clone, Debug)]
+struct Piece {
+    from: f64,
+    to: f64,
+    /// Point by point the variables of all states.
+    values: Vec<f64>,
+    /// Temperatures in K at its end of the massless nodes that are solved for: which of several
+    /// solutions they are on.
+    branch: Vec<f64>,
+}
+
+/// The states of a run over time.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Trajectory {
+    pub(crate) stretches: Vec<Stretch>,
+    /// For each control the stretch at whose end it switched last.
+    switched: Vec<Option<usize>>,
+    bytes: usize,
+    failure: Option<NoTrajectory>,
+}
+
+/// Places on (0, 1): Chebyshev points of the second kind.
+fn place(k: usize) -> f64 {
+    0.5 - 0.5 * (std::f64::consts::PI * k as f64 / (POINTS - 1) as f64).cos()
+}
+
+impl Trajectory {
+    /// Without any stretch.
+    pub(crate) fn new(network: &Network) -> Self {
+        Self { switched: vec![None; network.controls().len()], ..Self::default() }
+    }
+
+    /// Begins a stretch.
+    pub(crate) fn enter(&mut self, inside: f64, positions: Option<&Positions>) {
+        let empty = self.stretches.last().is_some_and(|stretch| stretch.pieces.is_empty());
+        if empty {
+            self.stretches.pop();
+        }
+        let positions = positions.cloned();
+        self.stretches.push(Stretch { inside, positions, pieces: Vec::new(), end: None });
+    }
+
+    /// The times in s at which a piece needs its values.
+    pub(crate) fn times(from: f64, to: f64) -> [f64; POINTS] {
+        let mut times = [0.0; POINTS];
+        times.iter_mut().enumerate().for_each(|(k, time)| *time = from + place(k) * (to - from));
+        times[POINTS - 1] = to;
+        times
+    }
+
+    /// Adds a piece with its values at those times, and the temperatures in K of massless nodes at
+    /// its end.
+    pub(crate) fn add(&mut self, (from, to): (f64, f64), values: Vec<f64>, branch: Vec<f64>) {
+        let steps = self.stretches.iter().map(|stretch| stretch.pieces.len()).sum::<usize>();
+        self.bytes += (values.len() + branch.len()) * size_of::<f64>();
+        if self.bytes > MOST_BYTES {
+            let states = values.len() / POINTS;
+            self.failure.get_or_insert(NoTrajectory::Long { states, steps });
+            return;
+        }
+        if let Some(stretch) = self.stretches.last_mut() {
+            stretch.pieces.push(Piece { from, to, values, branch });
+        }
+    }
+
+    /// There is no way back through the run.
+    pub(crate) fn fail(&mut self, reason: NoTrajectory) {
+        self.failure.get_or_insert(reason);
+    }
+
+    /// The stretch ends with a switch at a time in s. `waited` is the control whose dwell ended, if
+    /// no threshold was crossed; `due` are the positions at their thresholds.
+    pub(crate) fn turn(
+        &mut self,
+        (time, due, waited): (f64, &[usize], Option<usize>),
+        [before, after]: [&Positions; 2],
+        branch: Vec<f64>,
+    ) {
+        if before == after {
+            return;
+        }
+        let last = |control: usize| self.switched.get(control).copied().flatten();
+        let cause = match (due.first(), waited) {
+            (Some(&position), _) => Cause::Crossing(position),
+            (None, Some(control)) => Cause::Dwell { control, began: last(control) },
+            (None, None) => Cause::Fixed,
+        };
+        let number = self.stretches.len().saturating_sub(1);
+        for (control, (before, after)) in before.controls.iter().zip(&after.controls).enumerate() {
+            if before != after {
+                // a switch at a known time does not move
+                self.switched[control] = (cause != Cause::Fixed).then_some(number);
+            }
+        }
+        if let (Some(stretch), true) = (self.stretches.last_mut(), cause != Cause::Fixed) {
+            stretch.end = Some(Turn { time, cause, after: after.clone(), branch });
+        }
+    }
+
+    /// # Errors
+    /// The reason why it is not complete.
+    pub(crate) fn check(&self) -> Result<(), NoTrajectory> {
+        self.failure.clone().map_or(Ok(()), Err)
+    }
+}
+
+impl Stretch {
+    /// Start and end in s; NaN if it has no piece.
+    pub(crate) fn span(&self) -> (f64, f64) {
+        let from = self.pieces.first().map_or(f64::NAN, |piece| piece.from);
+        (from, self.pieces.last().map_or(f64::NAN, |piece| piece.to))
+    }
+
+    /// The piece at a time, or the nearest one.
+    fn piece(&self, time: f64) -> Option<&Piece> {
+        let after = self.pieces.partition_point(|piece| piece.to < time);
+        self.pieces.get(after).or(self.pieces.last())
+    }
+
+    /// Writes the variables of all states at a time inside; outside, those of the nearest end.
+    pub(crate) fn at(&self, time: f64, out: &mut [f64]) {
+        self.piece(time).iter().for_each(|piece| piece.at(time, out));
+    }
+
+    /// Temperatures in K of the massless nodes that are solved for, near a time.
+    pub(crate) fn branch(&self, time: f64) -> &[f64] {
+        self.piece(time).map_or(&[], |piece| &piece.branch)
+    }
+}
+
+impl Piece {
+    /// The polynomial by the barycentric formula (J.-P. Berrut and L. N. Trefethen, SIAM Rev. 46
+    /// (2004) 501, equation 5.4).
+    fn at(&self, time: f64, out: &mut [f64]) {
+        let at = ((time - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
+        let states = out.len();
+        let mut weights = [0.0; POINTS];
+        for (k, weight) in weights.iter_mut().enumerate() {
+            let distance = at - place(k);
+            if distance.abs() < f64::EPSILON {
+                out.copy_from_slice(&self.values[k * states..(k + 1) * states]);
+                return;
+            }
+            let end = if k == 0 || k == POINTS - 1 { 0.5 } else { 1.0 };
+            *weight = if k % 2 == 0 { end } else { -end } / distance;
+        }
+        let sum: f64 = weights.iter().sum();
+        out.fill(0.0);
+        for (row, weight) in self.values.chunks(states.max(1)).zip(weights) {
+            out.iter_mut().zip(row).for_each(|(out, value)| *out += weight / sum * value);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_polynomial_of_the_fifth_degree_is_exact() {
+        let of = |t: f64| [1.0 - t + 2.0 * t.powi(5), t.powi(3)];
+        let mut known = Trajectory::default();
+        known.enter(3.0, None);
+        let values = Trajectory::times(2.0, 4.0).into_iter().flat_map(of).collect();
+        known.add((2.0, 4.0), values, Vec::new());
+        let stretch = &known.stretches[0];
+        assert_eq!(stretch.span(), (2.0, 4.0));
+        for time in [2.0, 2.1, 3.0, 3.7, 4.0] {
+            let mut found = [0.0; 2];
+            stretch.at(time, &mut found);
+            for (found, expected) in found.into_iter().zip(of(time)) {
+                assert!((found - expected).abs() < 1e-12 * expected.abs(), "{time}: {found}");
+            }
+        }
+    }
+}
