@@ -26,6 +26,8 @@ pub enum BackwardError {
     /// The balances of massless nodes are singular.
     Factorization(error: FactorError) = "solve::singular", error, source error,
         class lptn_units::Class::Numbers;
+    /// It was interrupted.
+    Interrupted = "run::interrupted", "the gradient was interrupted";
     /// A control or comparison only just reaches its threshold: its name and the time in s.
     Grazes { name: String, time: f64 } = "gradient::grazes",
         format!("`{name}` only just reaches its threshold at {time} s: a small change of a \

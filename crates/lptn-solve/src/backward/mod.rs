@@ -23,6 +23,7 @@ use lptn_network::{Functional, LimitId, ParameterId};
 
 use crate::margin::{Margin, Point};
 use crate::result_slopes::MarginSlopes;
+use crate::settings::{Proceed, Progress};
 use crate::solution::Solution;
 use crate::trajectory::{NoTrajectory, Stretch, Trajectory};
 
@@ -47,12 +48,14 @@ struct Sought<'a> {
     trajectory: &'a Trajectory,
     margin: Margin<'a>,
     parameters: &'a [ParameterId],
+    observer: &'a dyn Fn(Progress) -> Proceed,
 }
 
 impl Solution {
     /// The margin of a limit at the end of the run, its least or its largest value, its mean or its
     /// integral over the run, and the derivatives by these parameters, in SI units; the run keeps
     /// its trajectory ([`crate::Transient::trajectory`]). Controls and comparisons may switch.
+    /// `observer` is called after every step of the way back and may interrupt it.
     ///
     /// # Errors
     /// [`BackwardError`]
@@ -60,11 +63,12 @@ impl Solution {
         &self,
         (limit, functional): (LimitId, Functional),
         parameters: &[ParameterId],
+        observer: &dyn Fn(Progress) -> Proceed,
     ) -> Result<MarginSlopes, BackwardError> {
         let trajectory = self.trajectory.as_deref().ok_or(NoTrajectory::Unknown)?;
         trajectory.check()?;
         let margin = Margin { system: &self.system, limit };
-        let sought = Sought { solution: self, trajectory, margin, parameters };
+        let sought = Sought { solution: self, trajectory, margin, parameters, observer };
         match functional {
             Functional::Mean | Functional::Integral => sought.integrated(functional),
             Functional::Min => sought.of_moment(sought.worst()?),
@@ -89,6 +93,11 @@ impl Sought<'_> {
             (from - room..=to + room).contains(&time)
         };
         self.trajectory.stretches.iter().enumerate().filter(move |(_, s)| holds(s)).map(|(k, _)| k)
+    }
+
+    /// End of the run in s.
+    fn end(&self) -> f64 {
+        self.trajectory.stretches.last().map_or(0.0, |stretch| stretch.span().1)
     }
 
     /// Duration of the run in s.

@@ -7,6 +7,7 @@ use super::moment::Moment;
 use super::system::Adjoint;
 use super::{Aim, Sought};
 use crate::margin::Point;
+use crate::settings::{Proceed, Progress};
 use crate::stepper::cvodes;
 
 /// Tolerance of the adjoint as a share of its largest value, for one of the run of 1 K.
@@ -128,6 +129,7 @@ impl<'a> Way<'a> {
         while self.integrator.time() < -from {
             let stepped = self.integrator.step();
             stepped.map_err(|error| self.failed(error))?;
+            self.report()?;
             let size = largest(self.integrator.state());
             let [low, high] = SCALED;
             if size > high || size < low && size > 0.0 && !is_zero {
@@ -137,6 +139,16 @@ impl<'a> Way<'a> {
             }
         }
         self.take()
+    }
+
+    /// Reports the time that is reached on the way back; it may be interrupted.
+    fn report(&self) -> Result<(), BackwardError> {
+        let [start, stop] = [0.0, self.sought.length()];
+        let gone = self.integrator.time() + self.sought.end();
+        match (self.sought.observer)(Progress { start, time: gone, stop }) {
+            Proceed::Continue => Ok(()),
+            Proceed::Interrupt => Err(BackwardError::Interrupted),
+        }
     }
 
     fn failed(&mut self, error: IntegrateError) -> BackwardError {

@@ -24,7 +24,7 @@ pub(super) fn gradients(
             Functional::Max => Functional::Min,
             other => other,
         };
-        let slopes = solution.margin_gradient((one.limit, functional), ids);
+        let slopes = solution.margin_gradient((one.limit, functional), ids, observer);
         let slopes = slopes.map_err(|error| match error {
             BackwardError::Tangents(why) => GradientError::Differences { why: why.to_string() },
             error => error.into(),
