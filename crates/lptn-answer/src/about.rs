@@ -1,6 +1,6 @@
 //! Parts of every report on a netlist: its network, its parameters, and its sources.
 
-use lptn_graph::{Diagram, Grouping, MOST_PLACES, View, diagram};
+use lptn_graph::{Diagram, Grouping, Laid, MOST_PLACES, View, diagram};
 use lptn_netlist::Netlist;
 use lptn_network::{Field, Item, Network, ParameterId};
 use lptn_report::{Claim, Piece, Report, Section, Standing, Text, TextTable, plain, significant};
@@ -166,10 +166,11 @@ fn drawing(input: &Input, (title, unit): (&str, &Unit), state: Option<&Snapshot>
 /// A diagram as a circuit and, in a state, as bands.
 fn section(title: String, diagram: &Diagram, state: Option<&Snapshot>) -> Section {
     let mut pieces = Vec::new();
-    if let Ok(scene) = lptn_graph::scene(diagram) {
+    let laid = Laid::of(diagram);
+    if let Ok(scene) = laid.scene() {
         pieces.push(Piece::Drawing(scene, diagram.grouped.join("; ")));
     }
-    if let Some(Ok(scene)) = state.map(|_| lptn_graph::sankey(diagram)) {
+    if let Some(Ok(scene)) = state.map(|_| laid.sankey()) {
         pieces.push(Piece::Drawing(scene, String::new()));
     }
     Section { title, pieces, folded: false }
