@@ -73,6 +73,15 @@ fn pages() -> Folder {
 fn every_page_opens_and_can_be_read_and_used_by_keys() {
     let folder = pages();
     let names: Vec<String> = PAGES.iter().map(|(name, _)| format!("{name}.html")).collect();
+    // the end of what the program prints is the beginning of the page
+    for name in ["size", "rank", "plan"] {
+        let page = folder.read(&format!("{name}.html"));
+        let results = page.find("<h2>Results</h2>").unwrap();
+        let last = page[results..].split("<h2>Network</h2>").next().unwrap();
+        let last = last[last.rfind("<p>").unwrap()..].split("</p>").next().unwrap();
+        let last = last.rsplit("</span> ").next().unwrap();
+        assert!(page[..page.find("<figure").unwrap()].contains(last), "{name}: {last}");
+    }
     for name in &names {
         let page = folder.read(name);
         assert!(!page.contains(" src=") && !page.contains(" href="), "{name}");
