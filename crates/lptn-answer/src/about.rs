@@ -1,6 +1,6 @@
 //! Parts of every report on a netlist: its network, its parameters, and its sources.
 
-use lptn_graph::{Diagram, Grouping, MOST_PLACES, View, diagram};
+use lptn_graph::{Diagram, Grouping, Laid, MOST_PLACES, View, diagram};
 use lptn_netlist::Netlist;
 use lptn_network::{Field, Item, Network, ParameterId};
 use lptn_report::{Claim, Piece, Report, Section, Standing, Text, TextTable, plain, significant};
@@ -121,13 +121,20 @@ pub fn manifest(mut value: Value) -> Option<Section> {
     Some(Section::of("Manifest", Piece::Verbatim(text)).folded())
 }
 
+/// Most members of an object of the manifest: a page of a grid does not list its cells.
+const MOST_MEMBERS: usize = 40;
+
 /// JSON with one line per member; a value that contains no further objects is on one line.
 fn lines(value: &Value, depth: usize, out: &mut String) {
     let Some(members) = value.as_object().filter(|all| all.values().any(is_deep)) else {
         return *out += &value.to_string();
     };
     *out += "{\n";
-    for (i, (key, member)) in members.iter().enumerate() {
+    let left_out = members.len().saturating_sub(MOST_MEMBERS);
+    let told = (left_out > 0).then(|| ("..".to_owned(), format!("{left_out} more").into()));
+    let shown = members.iter().take(MOST_MEMBERS);
+    let shown = shown.chain(told.iter().map(|(key, told)| (key, told)));
+    for (i, (key, member)) in shown.enumerate() {
         let comma = if i > 0 { ",\n" } else { "" };
         *out += &format!(
             "{comma}{:indent$}{}: ",
@@ -166,10 +173,11 @@ fn drawing(input: &Input, (title, unit): (&str, &Unit), state: Option<&Snapshot>
 /// A diagram as a circuit and, in a state, as bands.
 fn section(title: String, diagram: &Diagram, state: Option<&Snapshot>) -> Section {
     let mut pieces = Vec::new();
-    if let Ok(scene) = lptn_graph::scene(diagram) {
+    let laid = Laid::of(diagram);
+    if let Ok(scene) = laid.scene() {
         pieces.push(Piece::Drawing(scene, diagram.grouped.join("; ")));
     }
-    if let Some(Ok(scene)) = state.map(|_| lptn_graph::sankey(diagram)) {
+    if let Some(Ok(scene)) = state.map(|_| laid.sankey()) {
         pieces.push(Piece::Drawing(scene, String::new()));
     }
     Section { title, pieces, folded: false }

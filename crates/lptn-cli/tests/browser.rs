@@ -16,10 +16,11 @@ use crate::common;
 
 use std::process::{Command, Output};
 
-use common::Folder;
-use serde_json::Value;
+use common::{Folder, browse};
+use serde_json::{Value, json};
 
-const PROBE: &str = include_str!("common/probe.js");
+/// Looks at a page from inside.
+pub(crate) const PROBE: &str = include_str!("common/probe.js");
 
 /// A gearbox whose fan switches: three panels, events, a limit.
 const FAN: &str = include_str!("../../../networks/gearbox_fan.toml");
@@ -45,32 +46,9 @@ fn address(folder: &Folder, name: &str) -> String {
     format!("file://{}", folder.path().join(name).display())
 }
 
-/// What a page is when its scripts have run, and what the browser said meanwhile.
-pub(crate) fn opened(folder: &Folder, name: &str, width: u32) -> Option<(String, Vec<String>)> {
-    let size = format!("--window-size={width},1200");
-    let address = address(folder, name);
-    let arguments = ["--virtual-time-budget=5000", "--dump-dom", &size, &address];
-    let output = browser(folder, &arguments)?;
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    let said = said.lines().filter(|line| line.contains(":CONSOLE")).map(str::to_owned).collect();
-    Some((String::from_utf8(output.stdout).unwrap(), said))
-}
-
-/// What the probe finds in a page, for which another script is allowed in a copy of it.
+/// What the probe finds in a page.
 pub(crate) fn probed(folder: &Folder, name: &str, width: u32) -> Option<Value> {
-    let page = folder.read(name);
-    let from = page.find("<meta http-equiv=\"Content-Security-Policy\"").unwrap();
-    let to = from + page[from..].find('\n').unwrap();
-    let page = format!("{}{}", &page[..from], &page[to..]);
-    let probed = page.replace("</body>", &format!("<script>{PROBE}</script></body>"));
-    folder.write("probed.html", &probed);
-    let (page, said) = opened(folder, "probed.html", width)?;
-    assert!(said.is_empty(), "{said:?}");
-    let begin = "<pre id=\"probe\">";
-    let from = page.find(begin).unwrap_or_else(|| panic!("no probe: {page}")) + begin.len();
-    let to = from + page[from..].find("</pre>").unwrap();
-    let text = page[from..to].replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
-    Some(serde_json::from_str(&text).unwrap())
+    browse::browsed(folder, &[(name, width)], PROBE).map(|mut found| found.remove(0))
 }
 
 fn fan() -> Folder {
@@ -78,14 +56,6 @@ fn fan() -> Folder {
     let ran = folder.run(&["run", "fan.toml", "--report=fan.html"]);
     assert_eq!(ran.code, Some(0), "{}", ran.err);
     folder
-}
-
-#[test]
-fn a_page_opens_from_disk_without_a_word() {
-    let folder = fan();
-    let Some((page, said)) = opened(&folder, "fan.html", 1000) else { return };
-    assert!(said.is_empty(), "{said:?}");
-    assert!(page.contains("data-ready=\"1\"") && page.contains("<canvas"), "the charts are there");
 }
 
 /// Every number of every chart at the time of a row is that of a column of `result.csv`, to the
@@ -143,6 +113,14 @@ fn zoom_and_legend_work() {
         assert_eq!(range("again"), before);
         let shown = |name: &str| chart[name].as_array().unwrap().last().unwrap().as_bool().unwrap();
         assert!(!shown("hidden") && shown("shown"));
+        // by keys: nearer by 1.4 around the middle, then to the left by a tenth of what is seen
+        assert_eq!(chart["pressed"], json!([false, "false"]));
+        let (nearer, moved, all) = (range("nearer"), range("moved"), range("all"));
+        let (half, left) = (3600.0 / 1.4, 3600.0 - 3600.0 / 1.4);
+        let close = |a: &[f64], b: [f64; 2]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6);
+        assert!(close(&nearer, [left, 3600.0 + half]), "{nearer:?}");
+        assert!(close(&moved, [left - 0.2 * half, 3600.0 + 0.8 * half]), "{moved:?}");
+        assert_eq!(all, before[..2]);
     }
 }
 

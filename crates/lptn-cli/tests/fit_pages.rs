@@ -118,3 +118,33 @@ fn records_of_one_name_have_their_folders() {
         assert!(page.contains(&format!(">ring ({name})<")), "no bar {name}");
     }
 }
+
+/// 7501 rows: at most 1000 dots of each column, its first, lowest, highest and last value among them.
+#[test]
+fn a_long_record_has_a_page_that_can_be_sent() {
+    let name = "networks/records/synthetic_gearbox/7000rpm_a.csv";
+    let file = format!("{}/../../{name}", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(file).unwrap();
+    let folder = Folder::with("record.csv", &text);
+    let words = ["fit", "step", "record.csv", "--column", "ring_gear", "--report=page.html"];
+    folder.run(&words).exits(0);
+    let page = folder.read("page.html");
+    assert!(page.len() < 300_000, "{} bytes", page.len());
+    let rows = text.lines().skip_while(|line| !line.starts_with("t [s]")).skip(1);
+    let rows = rows.map(|line| line.split(',').nth(1).unwrap().parse::<f64>().unwrap());
+    let values: Vec<f64> = rows.collect();
+    assert_eq!(values.len(), 7501);
+    let charts = charts(&page);
+    let curves = charts[0]["panels"][0]["curves"].as_array().unwrap();
+    let is_dots = |curve: &&Value| curve["name"] == "ring_gear" && curve["look"] == "dots";
+    let dots = curves.iter().find(is_dots).unwrap()["y"].as_array().unwrap();
+    let dots: Vec<f64> = dots.iter().map(|value| value.as_f64().unwrap()).collect();
+    assert!(dots.len() <= 1000, "{} dots", dots.len());
+    let ends = |of: &[f64]| {
+        let least = of.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = of.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        [of[0], least, most, of[of.len() - 1]]
+    };
+    let pairs = ends(&dots).into_iter().zip(ends(&values));
+    pairs.for_each(|(dot, value)| assert!((dot - value).abs() < 1e-9, "{dot} {value}"));
+}

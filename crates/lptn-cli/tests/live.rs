@@ -16,16 +16,13 @@ use std::process::Command;
 
 use serde_json::{Value, json};
 
-use crate::common::{Folder, GEARBOX};
+use crate::common::{Folder, GEARBOX, browse};
 
 /// Probes a page: readable, within its width.
 const LOOK: &str = include_str!("common/probe.js");
 
 /// Moves a slider.
 const MOVE: &str = include_str!("common/live_probe.js");
-
-/// Opens a page in Chromium.
-const BROWSE: &str = include_str!("common/browse.mjs");
 
 /// Runs the core in node.
 const CORE: &str = include_str!("common/live.mjs");
@@ -42,24 +39,9 @@ fn has_core() -> bool {
     built
 }
 
-/// The value of an expression in the page, which says nothing on the console and requests nothing.
+/// The value of an expression in the page.
 fn browsed(folder: &Folder, width: u32, expression: &str) -> Option<Value> {
-    folder.write("browse.mjs", BROWSE);
-    let mut node = Command::new("node");
-    let width = width.to_string();
-    node.args(["browse.mjs", ".", "live.html", &width, expression]).current_dir(folder.path());
-    let output = node.output().ok().map(|output| String::from_utf8(output.stdout).unwrap());
-    let found: Value = output.map_or(Value::Null, |text| serde_json::from_str(&text).unwrap());
-    if found.is_null() || found["missing"] == true {
-        assert!(
-            std::env::var_os("LPTN_REQUIRE_ORACLES").is_none(),
-            "node and chromium are required"
-        );
-        eprintln!("skipped: there is no node, or no chromium");
-        return None;
-    }
-    assert_eq!((&found["said"], &found["requested"]), (&json!([]), &json!([])));
-    Some(found["value"].clone())
+    browse::browsed(folder, &[("live.html", width)], expression).map(|mut found| found.remove(0))
 }
 
 /// An expression that is evaluated when the page has its first answer.
@@ -189,10 +171,7 @@ fn a_live_page_can_be_read_in_both_themes_at_three_widths() {
     if !has_core() {
         return;
     }
-    let probe = "const told = () => document.getElementById('probe');\n\
-         while (!told()) await new Promise(done => setTimeout(done, 20));";
-    let look = answered("JSON.parse(told().textContent)")
-        .replace("return", &format!("{LOOK}\n{probe}\nreturn"));
+    let look = answered(&format!("await {LOOK}"));
     for width in [600, 1200, 1920] {
         let Some(found) = browsed(&folder, width, &look) else { return };
         for theme in ["light", "dark"] {
@@ -200,6 +179,7 @@ fn a_live_page_can_be_read_in_both_themes_at_three_widths() {
             assert!(least[0].as_f64().unwrap() >= 4.5, "{theme} at {width}: {least}");
         }
         assert_eq!(found["wide"], Value::Array(Vec::new()), "at {width}");
+        assert_eq!(found["unreached"], Value::Array(Vec::new()), "at {width}");
     }
 }
 
@@ -345,4 +325,69 @@ fn the_core_in_node_has_the_rows_of_the_program() {
         }
     }
     assert!(same > 10 && close > 5, "{same} with the same bytes, {close} close");
+}
+
+/// A rod of 1000 cells that heat enters at one end.
+const ROD: &str = "format = 1
+[param]
+P = '10 W'
+[grid.rod]
+size = ['1 m', '10 mm', '10 mm']
+cells = [1000]
+k = '50 W/(m K)'
+density = '7800 kg/m^3'
+cp = '500 J/(kg K)'
+T0 = '20 degC'
+[boundary]
+air = { T = '20 degC' }
+[convection]
+cold = { from = 'rod.x1', to = 'air', h = '100 W/(m^2 K)' }
+[source]
+loss = { into = 'rod.x0', P = 'P' }
+[run]
+stop = '10 min'
+output = { every = '10 s' }
+";
+
+/// Moves the first slider ten times: the least time in ms from an edit to the page that shows it,
+/// and how many times slower a loop of some 50 ms is than one that is too short to be interrupted.
+const EDITS: &str = "(async () => {
+const spin = count => {
+  const begun = performance.now();
+  let sum = 0;
+  for (let i = 0; i < count; i++) sum += Math.sqrt(i + sum);
+  return sum > 0 ? performance.now() - begun : 0;
+};
+const least = count => Math.min(...Array.from({ length: 10 }, () => spin(count)));
+least(1e6);
+const panel = document.querySelector('.tune'), slider = panel.querySelector('input[type=range]');
+const answers = async n => {
+  while (Number(panel.dataset.answers || 0) < n) await new Promise(done => setTimeout(done, 5));
+};
+await answers(1);
+const took = [];
+for (let i = 0; i < 10; i++) {
+  slider.value = 300 + 40 * i;
+  slider.dispatchEvent(new Event('input'));
+  await answers(i + 2);
+  took.push(Number(panel.dataset.took));
+}
+const short = least(1e6), count = Math.ceil(50 / short);
+return [Math.min(...took), Math.max(1, least(count * 1e6) / (count * short))];
+})()";
+
+/// From an edit to the page that shows it: 50 ms for the gearbox, 200 ms for 1000 nodes, in as many
+/// times as much if other programs interrupt this one.
+#[test]
+fn an_edit_is_seen_at_once() {
+    if !has_core() {
+        return;
+    }
+    let rod = Folder::with("rod.toml", ROD);
+    rod.run(&["run", "rod.toml", "--report=live.html", "--live"]).exits(0);
+    for (folder, most) in [(gearbox(), 50.0), (rod, 200.0)] {
+        let Some(found) = browsed(&folder, 1000, EDITS) else { return };
+        let [took, slower] = [0, 1].map(|i| found[i].as_f64().unwrap());
+        assert!(took <= most * slower, "{took} ms are more than {most} ms times {slower}");
+    }
 }

@@ -25,6 +25,7 @@ mod deviations;
 mod documents;
 mod events;
 mod events_verbs;
+mod every_page;
 mod exit_codes;
 mod expand;
 mod explain;

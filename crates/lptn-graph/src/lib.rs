@@ -1,9 +1,9 @@
 //! Networks as pictures.
 //!
 //! A [`Diagram`] is a network as it is drawn: its nodes, boundaries, paths and sources with their
-//! labels, grouped into boxes on request. [`scene`] lays it out and draws it with the usual
-//! symbols, [`sankey()`] draws its heat flows as bands, [`dot()`] and [`mermaid()`] write it for
-//! other programs. A [`GridField`] is the temperature of the cells of a grid, drawn slice by slice
+//! labels, grouped into boxes on request. [`Laid`] lays it out. [`Laid::scene`] draws it with the
+//! usual symbols, [`Laid::sankey`] its heat flows as bands. [`dot()`] and [`mermaid()`] write it
+//! for other programs. A [`GridField`] is the temperature of the cells of a grid, drawn slice by slice
 //! or written for ParaView.
 
 mod direction;
@@ -30,8 +30,8 @@ pub use field::{Cut, GridField, NoSlice};
 pub use groups::{Grouping, MOST_PLACES};
 pub use mermaid::mermaid;
 pub use model::{Diagram, Link, Place, PlaceRole, Scales, Supply, Switching, Target};
-pub use picture::{MOST_DRAWN, TooMany, scene};
+pub use picture::{Laid, MOST_DRAWN, TooMany};
 pub use read::{View, diagram, series};
-pub use sankey::{Band, Bar, BarRole, HeatFlows, NoSankey, sankey};
+pub use sankey::{Band, Bar, BarRole, HeatFlows, NoSankey};
 pub use slice::{Shades, slice};
 pub use vtk::vtk;

@@ -1,5 +1,6 @@
 //! Draws a diagram.
 
+use std::cell::OnceCell;
 use std::fmt;
 
 use lptn_network::ConductorKind;
@@ -59,35 +60,51 @@ const MOST_WIDTH: f64 = 1250.0;
 /// The widest arrow of a heat flow.
 const WIDEST: f64 = 6.0;
 
-/// A diagram as a drawing.
-///
-/// # Errors
-/// [`TooMany`] for more than [`MOST_DRAWN`] boxes.
-pub fn scene(diagram: &Diagram) -> Result<Scene, TooMany> {
-    if diagram.places.len() > MOST_DRAWN {
-        return Err(TooMany { boxes: diagram.places.len() });
-    }
-    let (ends, supplies) = (direction::ends(diagram), supplies(diagram));
-    let arranged = arranged(diagram, &ends, &supplies);
-    let head = if diagram.title.is_empty() { 0.0 } else { 30.0 };
-    let legend = legend::legend(diagram);
-    let wide = legend.width.max(width(&diagram.title, 16.0, true)).max(arranged.size.0);
-    let size = (wide + 2.0 * MARGIN, head + arranged.size.1 + legend.height + 2.0 * MARGIN);
-    let mut scene = Scene::new((size.0.ceil(), size.1.ceil()), diagram.title.clone());
-    let title = Text::new(diagram.title.clone(), (MARGIN, MARGIN + 12.0), 16.0, Ink::Text);
-    scene.write(title.bold());
-    let corner = (MARGIN + (wide - arranged.size.0) / 2.0, MARGIN + head);
-    Drawing { diagram, scene: &mut scene, corner }.draw(&arranged, (&ends, &supplies));
-    legend::draw(&mut scene, diagram, (MARGIN, size.1 - MARGIN - legend.height));
-    Ok(scene)
+/// A diagram with the positions of everything on it, which are computed once for all its pictures.
+#[derive(Debug)]
+pub struct Laid<'a> {
+    pub(crate) diagram: &'a Diagram,
+    ends: Vec<(usize, usize)>,
+    arranged: OnceCell<Arranged>,
 }
 
-/// The positions of everything: the order of places is that of every picture of the network.
-pub(crate) fn arranged(
-    diagram: &Diagram,
-    ends: &[(usize, usize)],
-    supplies: &[Supplies<'_>],
-) -> Arranged {
+impl<'a> Laid<'a> {
+    /// A diagram of any size; nothing is laid out before a picture needs it.
+    pub fn of(diagram: &'a Diagram) -> Self {
+        Self { diagram, ends: direction::ends(diagram), arranged: OnceCell::new() }
+    }
+
+    /// The circuit as a drawing.
+    ///
+    /// # Errors
+    /// [`TooMany`] for more than [`MOST_DRAWN`] boxes.
+    pub fn scene(&self) -> Result<Scene, TooMany> {
+        let diagram = self.diagram;
+        if diagram.places.len() > MOST_DRAWN {
+            return Err(TooMany { boxes: diagram.places.len() });
+        }
+        let arranged = self.arranged();
+        let head = if diagram.title.is_empty() { 0.0 } else { 30.0 };
+        let legend = legend::legend(diagram);
+        let wide = legend.width.max(width(&diagram.title, 16.0, true)).max(arranged.size.0);
+        let size = (wide + 2.0 * MARGIN, head + arranged.size.1 + legend.height + 2.0 * MARGIN);
+        let mut scene = Scene::new((size.0.ceil(), size.1.ceil()), diagram.title.clone());
+        let title = Text::new(diagram.title.clone(), (MARGIN, MARGIN + 12.0), 16.0, Ink::Text);
+        scene.write(title.bold());
+        let corner = (MARGIN + (wide - arranged.size.0) / 2.0, MARGIN + head);
+        let mut drawing = Drawing { diagram, scene: &mut scene, corner };
+        drawing.draw(arranged, (&self.ends, &supplies(diagram)));
+        legend::draw(&mut scene, diagram, (MARGIN, size.1 - MARGIN - legend.height));
+        Ok(scene)
+    }
+
+    /// The positions of everything: the order of places is that of every picture of the network.
+    pub(crate) fn arranged(&self) -> &Arranged {
+        self.arranged.get_or_init(|| arranged(self.diagram, &self.ends, &supplies(self.diagram)))
+    }
+}
+
+fn arranged(diagram: &Diagram, ends: &[(usize, usize)], supplies: &[Supplies<'_>]) -> Arranged {
     let places: Vec<Room> =
         diagram.places.iter().map(|place| place_block(diagram, place)).collect();
     let links = diagram.links.iter().zip(ends).map(|(link, (from, to))| Element {

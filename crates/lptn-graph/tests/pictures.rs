@@ -6,7 +6,7 @@
 use crate::common;
 
 use common::{EVIL, check, drawn, networks};
-use lptn_graph::{Diagram, Grouping, dot, mermaid, scene};
+use lptn_graph::{Diagram, Grouping, Laid, dot, mermaid};
 use lptn_netlist::Netlist;
 use lptn_plot::{png, svg};
 
@@ -31,12 +31,12 @@ fn nothing_lies_upon_a_text() {
     for path in networks() {
         let netlist = lptn_netlist::read(&path).unwrap();
         for steady in [false, true] {
-            let picture = scene(&drawn(&netlist, steady, Grouping::Auto)).unwrap();
+            let picture = Laid::of(&drawn(&netlist, steady, Grouping::Auto)).scene().unwrap();
             check(&picture, &path.display().to_string());
         }
-        check(&scene(&drawn(&netlist, true, Grouping::Yes)).unwrap(), "grouped");
+        check(&Laid::of(&drawn(&netlist, true, Grouping::Yes)).scene().unwrap(), "grouped");
     }
-    check(&scene(&drawn(&ladder(100), true, Grouping::No)).unwrap(), "ladder");
+    check(&Laid::of(&drawn(&ladder(100), true, Grouping::No)).scene().unwrap(), "ladder");
 }
 
 #[test]
@@ -46,7 +46,7 @@ fn the_same_network_gives_the_same_bytes() {
         let path = path.unwrap();
         let all = || {
             let of = drawn(&lptn_netlist::read(&path).unwrap(), true, Grouping::Auto);
-            let picture = scene(&of).unwrap();
+            let picture = Laid::of(&of).scene().unwrap();
             (dot(&of), mermaid(&of), svg::write(&picture), png::write(&picture, 1.0).unwrap())
         };
         assert!(all() == all(), "{name}");
@@ -77,7 +77,7 @@ fn evil() -> Diagram {
 
 #[test]
 fn names_cannot_become_elements_of_svg() {
-    let text = svg::write(&scene(&evil()).unwrap());
+    let text = svg::write(&Laid::of(&evil()).scene().unwrap());
     assert!(!text.contains("<script") && text.matches("</svg>").count() == 1, "{text}");
 }
 

@@ -7,7 +7,7 @@
 use crate::common;
 
 use common::{drawn, pages_and_networks};
-use lptn_graph::{Diagram, Grouping, sankey, scene};
+use lptn_graph::{Diagram, Grouping, Laid};
 use lptn_plot::scene::{Shape, Step, Text};
 use lptn_plot::{Ink, Scene, font, svg};
 
@@ -86,7 +86,7 @@ fn counters_circuits_are_short_and_clear() {
         let name = path.file_stem().unwrap().to_string_lossy().into_owned();
         let netlist = lptn_netlist::read(&path).unwrap();
         let of = drawn(&netlist, true, Grouping::Auto);
-        let picture = scene(&of).unwrap();
+        let picture = Laid::of(&of).scene().unwrap();
         assert!(picture.size.0 <= MOST_WIDE, "{name}: {} pixels wide", picture.size.0);
         let wires = wires(&picture);
         for [low, high] in boxes(&picture) {
@@ -135,8 +135,8 @@ fn heat_flows_have_the_order_of_the_circuit() {
             continue;
         }
         let of = drawn(&lptn_netlist::read(&path).unwrap(), true, Grouping::Auto);
-        let circuit = positions(&of, &scene(&of).unwrap());
-        let bands = positions(&of, &sankey(&of).unwrap());
+        let circuit = positions(&of, &Laid::of(&of).scene().unwrap());
+        let bands = positions(&of, &Laid::of(&of).sankey().unwrap());
         for i in 0..of.places.len() {
             for j in 0..i {
                 let (Some(a), Some(b)) = (circuit[i], circuit[j]) else { panic!("{name}") };
@@ -182,7 +182,7 @@ f = { from = "space", to = "lit", R = "1 K/W" }
     .unwrap();
     for steady in [false, true] {
         let of = drawn(&netlist, steady, Grouping::No);
-        let at = positions(&of, &scene(&of).unwrap());
+        let at = positions(&of, &Laid::of(&of).scene().unwrap());
         let [dark, side, lit, space] = [0, 1, 2, 3].map(|i: usize| at[i].unwrap().0);
         assert!(lit < dark && dark < side && side < space, "{at:?}");
     }

@@ -8,7 +8,7 @@ use crate::common;
 use common::{EVIL, check, networks};
 use lptn_assembly::ThermalSystem;
 use lptn_graph::{
-    BarRole, Diagram, Grouping, HeatFlows, MOST_PLACES, NoSankey, View, diagram, sankey,
+    BarRole, Diagram, Grouping, HeatFlows, Laid, MOST_PLACES, NoSankey, View, diagram,
 };
 use lptn_netlist::Netlist;
 use lptn_plot::scene::{Shape, Step};
@@ -73,6 +73,26 @@ foot = { from = "cold", to = "air", R = "2.4 K/W" }
 [run]
 stop = "1 h"
 "#;
+
+/// 1, 2, 3, 4 and 5 W into `hot` are one bar of 15 W. Those that cool have their own.
+#[test]
+fn many_sources_of_a_place_are_one_bar() {
+    let one = |i: i32| format!("s{i} = {{ into = \"hot\", P = \"{i} W\" }}\n");
+    let many: String = (1..=5).map(one).collect();
+    let four = PAIR.replace("heater = { into = \"hot\", P = \"12 W\" }\n", "");
+    let four = four.replace("[source]\n", &format!("[source]\n{many}"));
+    let four = four.replace("[resistor]", "drain = { into = \"hot\", P = \"-3 W\" }\n[resistor]");
+    let netlist = read(&four);
+    let state = steady(&netlist).unwrap();
+    let flows = HeatFlows::of(&drawn(&netlist, Some(&state), Grouping::No));
+    let sources: Vec<(&str, f64, f64)> = flows
+        .bars
+        .iter()
+        .filter(|bar| bar.role == BarRole::Source)
+        .map(|bar| (bar.name.as_str(), bar.into, bar.out))
+        .collect();
+    assert_eq!(sources, [("5 sources", 0.0, 15.0), ("cooler", 4.0, 0.0), ("drain", 3.0, 0.0)]);
+}
 
 #[test]
 fn bands_are_those_of_the_closed_form() {
@@ -178,7 +198,7 @@ fn a_coolant_is_not_an_island() {
     let of = drawn(&netlist, Some(&state), Grouping::No);
     let expected = [("losses", "losses", "jacket", 971.0), ("back", "jacket", "chiller", 971.0)];
     same(&HeatFlows::of(&of), &expected);
-    let scene = sankey(&of).unwrap();
+    let scene = Laid::of(&of).sankey().unwrap();
     let said =
         |shape: &Shape| matches!(shape, Shape::Text(text) if text.text.contains("above 30.0"));
     assert!(scene.shapes.iter().any(said), "the reference is said");
@@ -271,7 +291,7 @@ fn heat_that_goes_round_bears_an_arrow() {
             ("out", "q", "air", 8.0),
         ],
     );
-    let scene = sankey(&of).unwrap();
+    let scene = Laid::of(&of).sankey().unwrap();
     check(&scene, "round");
     let arrow = |shape: &&Shape| matches!(shape, Shape::Path(path) if path.steps.len() == 4);
     assert_eq!(scene.shapes.iter().filter(arrow).count(), 1);
@@ -355,7 +375,7 @@ fn conserves(netlist: &Netlist, state: &Snapshot, grouping: Grouping, name: &str
         let open = (bar.into - bar.out).abs();
         assert!(free || open <= rounding, "{name}: {open} W of {bar:?}");
     }
-    match sankey(&of) {
+    match Laid::of(&of).sankey() {
         Ok(scene) => {
             check(&scene, name);
             widths(&scene, &flows, name);
@@ -426,20 +446,27 @@ fn chain(count: usize) -> Netlist {
 fn what_cannot_be_drawn_is_said() {
     let many = chain(MOST_PLACES);
     let state = steady(&many).unwrap();
-    let error = sankey(&drawn(&many, Some(&state), Grouping::No)).unwrap_err();
+    let error = Laid::of(&drawn(&many, Some(&state), Grouping::No)).sankey().unwrap_err();
     assert_eq!(error, NoSankey::TooMany { bars: MOST_PLACES + 2 });
-    assert!(sankey(&drawn(&many, Some(&state), Grouping::Auto)).is_ok());
-    assert_eq!(sankey(&drawn(&many, None, Grouping::No)).unwrap_err(), NoSankey::NoState);
+    assert!(Laid::of(&drawn(&many, Some(&state), Grouping::Auto)).sankey().is_ok());
+    assert_eq!(
+        Laid::of(&drawn(&many, None, Grouping::No)).sankey().unwrap_err(),
+        NoSankey::NoState
+    );
     let cold = read(&PAIR.replace("\"12 W\"", "\"0 W\"").replace("\"-4 W\"", "\"0 W\""));
     let state = steady(&cold).unwrap();
-    assert_eq!(sankey(&drawn(&cold, Some(&state), Grouping::No)).unwrap_err(), NoSankey::NoHeat);
+    assert_eq!(
+        Laid::of(&drawn(&cold, Some(&state), Grouping::No)).sankey().unwrap_err(),
+        NoSankey::NoHeat
+    );
 }
 
 #[test]
 fn the_same_network_gives_the_same_bytes_and_long_chains_are_drawn() {
     let netlist = chain(60);
     let state = steady(&netlist).unwrap();
-    let all = || svg::write(&sankey(&drawn(&netlist, Some(&state), Grouping::No)).unwrap());
+    let all =
+        || svg::write(&Laid::of(&drawn(&netlist, Some(&state), Grouping::No)).sankey().unwrap());
     assert!(all() == all());
 }
 
@@ -452,6 +479,6 @@ fn names_cannot_become_elements_of_svg() {
     of.places.iter_mut().for_each(|place| place.name = EVIL.into());
     of.links.iter_mut().for_each(|link| link.name = EVIL.into());
     of.sources.iter_mut().for_each(|source| source.name = EVIL.into());
-    let text = svg::write(&sankey(&of).unwrap());
+    let text = svg::write(&Laid::of(&of).sankey().unwrap());
     assert!(!text.contains("<script") && text.matches("</svg>").count() == 1, "{text}");
 }

@@ -120,7 +120,10 @@ function redraw(found) {
     element.querySelector(".still").innerHTML = picture;
     all("figcaption", element).forEach(note => note.remove());
     const still = element.querySelector(".still");
-    notes.slice().reverse().forEach(note => still.after(made("figcaption", "", note)));
+    notes.slice().reverse().forEach(note => {
+      still.after(made("figcaption", ""));
+      still.nextSibling.innerHTML = note;
+    });
     if (!values || !element.querySelector(".live")) return;
     const figure = lptn.figures[zoomed++];
     const seen = figure.charts.map(chart => ({

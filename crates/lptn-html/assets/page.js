@@ -257,15 +257,17 @@ function enliven(element, index) {
   const width = room(values.panels), end = values.panels.length - 1;
   // before it is drawn, so that it has its width
   element.classList.add("zooms");
-  const draw = () => values.panels.map((panel, i) => plot(panel, values.places, host, "figure" + index, [width, i == 0, i == end]));
-  const figure = { values, charts: draw() };
+  const figure = { values };
+  const draw = () => values.panels.map((panel, i) =>
+    keyed(plot(panel, values.places, host, "figure" + index, [width, i == 0, i == end]), panel, figure));
+  figure.charts = draw();
   figure.redraw = () => {
     figure.charts.forEach(chart => chart.destroy());
     figure.charts = draw();
   };
   const hint = document.createElement("p");
   hint.className = "hint";
-  hint.textContent = "Drag to zoom, double-click to see all, click a name to hide its curve.";
+  hint.textContent = "Drag or + to zoom, double-click or 0 to see all, click a name to hide its curve.";
   element.append(hint);
   const resize = () => figure.charts.forEach((chart, i) => {
     const width = Math.max(200, host.clientWidth);
@@ -275,6 +277,42 @@ function enliven(element, index) {
   figures.push(figure);
 }
 
+// keys zoom a figure along, move it and show all of it; names of curves are buttons
+function keyed(chart, panel, figure) {
+  const { root, scales } = chart, log = panel.x.scale == "log";
+  const [to, from] = log ? [Math.log, Math.exp] : [x => x, x => x];
+  const [first, last] = panel.x.range.map(to);
+  root.tabIndex = 0;
+  root.setAttribute("role", "group");
+  root.setAttribute("aria-label", titled(panel.y) + ": plus and minus zoom, arrows move, 0 shows all");
+  root.addEventListener("keydown", event => {
+    if (event.target != root || event.ctrlKey || event.metaKey || event.altKey) return;
+    const factor = KEYS[event.key], [step] = ARROWS[event.key] || [0];
+    if (factor == null && !step) return;
+    event.preventDefault();
+    const [min, max] = [to(scales.x.min), to(scales.x.max)];
+    const half = factor == 0 ? (last - first) / 2 : Math.min(last - first, (max - min) * (factor || 1)) / 2;
+    const middle = between(first + half, (min + max) / 2 + 0.2 * step * half, last - half);
+    const seen = { min: from(middle - half), max: from(middle + half) };
+    figure.charts.forEach(other => other.setScale("x", seen));
+  });
+  all(".u-legend .u-series", root).forEach((row, k) => {
+    const name = row.querySelector("th");
+    if (!k) return;
+    const say = () => name.setAttribute("aria-pressed", chart.series[k].show);
+    name.tabIndex = 0;
+    name.setAttribute("role", "button");
+    name.addEventListener("click", say);
+    name.addEventListener("keydown", event => {
+      if (event.key != "Enter" && event.key != " ") return;
+      event.preventDefault();
+      name.click();
+    });
+    say();
+  });
+  return chart;
+}
+
 const SIGNS = [["+", "zoom in", 1 / 1.4], ["\u2212", "zoom out", 1.4], ["all", "show all", 0]];
 const KEYS = { "+": 1 / 1.4, "=": 1 / 1.4, "-": 1.4, "0": 0 };
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
@@ -282,20 +320,42 @@ const between = (low, value, high) => Math.max(low, Math.min(high, value));
 
 const drawings = [];
 
-// a drawing as wide as the page, which can be moved and zoomed into
+// a drawing as wide as the page, which can be moved and zoomed into; of several times, all together
 function fitted(figure) {
-  const svg = figure.querySelector("svg"), frame = svg.parentElement;
-  const { width, height } = svg.viewBox.baseVal;
+  const views = all("svg", figure).map(svg => viewed(svg));
+  views.forEach(view => view.join(views));
+  const tools = document.createElement("p");
+  tools.className = "tools";
+  SIGNS.forEach(([text, label, factor]) => {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.textContent = text;
+    button.setAttribute("aria-label", label);
+    button.addEventListener("click", () => views[0].zoom(factor));
+    tools.append(button);
+  });
+  const hint = document.createElement("span");
+  hint.className = "hint";
+  hint.textContent = "Drag to move, double-click or + to zoom.";
+  tools.append(hint);
+  figure.prepend(tools);
+  figure.classList.add("fits");
+}
+
+function viewed(svg) {
+  const frame = svg.parentElement, { width, height } = svg.viewBox.baseVal;
   const drawing = { svg, frame, width, height, x: 0, y: 0, share: 1 };
-  const show = () => {
-    const { x, y, share } = drawing;
+  let together = [drawing];
+  drawing.join = others => { together = others; };
+  drawing.show = ({ x, y, share }) => {
+    Object.assign(drawing, { x, y, share });
     svg.setAttribute("viewBox", [x, y, width * share, height * share].join(" "));
     frame.classList.toggle("inside", share < 1);
   };
   const move = (dx, dy) => {
-    drawing.x = between(0, drawing.x + dx, width * (1 - drawing.share));
-    drawing.y = between(0, drawing.y + dy, height * (1 - drawing.share));
-    show();
+    const x = between(0, drawing.x + dx, width * (1 - drawing.share));
+    const y = between(0, drawing.y + dy, height * (1 - drawing.share));
+    together.forEach(other => other.show({ x, y, share: drawing.share }));
   };
   // a factor of 0 shows all; the point, in shares of the frame, keeps its place
   drawing.zoom = (factor, [right, down] = [0.5, 0.5]) => {
@@ -341,25 +401,10 @@ function fitted(figure) {
     else return;
     event.preventDefault();
   });
-  const tools = document.createElement("p");
-  tools.className = "tools";
-  SIGNS.forEach(([text, label, factor]) => {
-    const button = document.createElement("button");
-    button.type = "button";
-    button.textContent = text;
-    button.setAttribute("aria-label", label);
-    button.addEventListener("click", () => drawing.zoom(factor));
-    tools.append(button);
-  });
-  const hint = document.createElement("span");
-  hint.className = "hint";
-  hint.textContent = "Drag to move, double-click or + to zoom.";
-  tools.append(hint);
-  figure.prepend(tools);
-  figure.classList.add("fits");
   size();
   new ResizeObserver(() => requestAnimationFrame(size)).observe(frame);
   drawings.push(drawing);
+  return drawing;
 }
 
 const themes = window.matchMedia("(prefers-color-scheme: dark)");

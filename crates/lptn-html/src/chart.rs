@@ -2,11 +2,12 @@
 
 use lptn_plot::chart::{far, ink, is_far, ranges, scene};
 use lptn_plot::figure::{Axis, Curve, Look, Panel, Scale};
-use lptn_plot::svg::{self, escaped};
+use lptn_plot::svg;
 use lptn_plot::{Figure, SERIES, printed};
 use serde_json::{Value, json};
 
 use crate::script;
+use crate::text::coded;
 
 /// Width of a picture in CSS pixels.
 const WIDTH: f64 = 760.0;
@@ -17,7 +18,7 @@ pub(crate) fn write(out: &mut String, figure: &Figure) {
     let picture = picture(figure);
     *out += "<figure class=\"chart\">\n";
     if !figure.title.is_empty() {
-        *out += &format!("<h2>{}</h2>\n", escaped(&figure.title));
+        *out += &format!("<h2>{}</h2>\n", coded(&figure.title));
     }
     if let Some(values) = zoomable(figure) {
         let values = script::json(&values);
@@ -26,7 +27,7 @@ pub(crate) fn write(out: &mut String, figure: &Figure) {
     }
     *out += &format!("<div class=\"still\">{picture}</div>\n");
     for note in figure.note.lines() {
-        *out += &format!("<figcaption>{}</figcaption>\n", escaped(note));
+        *out += &format!("<figcaption>{}</figcaption>\n", coded(note));
     }
     *out += "</figure>\n";
 }

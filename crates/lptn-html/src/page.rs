@@ -26,7 +26,7 @@ pub fn write_live(report: &Report, live: &Live<'_>) -> String {
 /// The file, with the additions of a live page.
 fn whole(report: &Report, live: Option<&Live<'_>>) -> String {
     let mut out = head(&report.title, live.is_some());
-    out += &format!("<header><h1>{}</h1>{BUTTON}</header>\n", escaped(&report.title));
+    out += &format!("<header><h1>{}</h1>{BUTTON}</header>\n", text::coded(&report.title));
     claims(&mut out, report);
     out += live.map_or("", |_| live::PANEL);
     report.sections.iter().for_each(|part| section(&mut out, part));
@@ -64,14 +64,14 @@ pub(crate) fn claims(out: &mut String, report: &Report) {
             Standing::Open => "\u{b7}",
             Standing::Fails => "\u{2717}",
         };
-        let text = escaped(&claim.text);
+        let text = text::coded(&claim.text);
         *out += &format!("<li class=\"{class}\"><b>{sign}</b> {text}</li>\n");
     }
     *out += "</ul>\n";
 }
 
 fn section(out: &mut String, section: &Section) {
-    let title = escaped(&section.title);
+    let title = text::coded(&section.title);
     match (section.folded, title.is_empty()) {
         (true, _) => *out += &format!("<details>\n<summary>{title}</summary>\n"),
         (false, true) if section.is_of_small() => *out += "<section class=\"many\">\n",
@@ -88,7 +88,7 @@ pub(crate) fn piece(out: &mut String, piece: &Piece) {
         Piece::Figure(figure) => chart::write(out, figure),
         Piece::Drawing(scene, caption) => {
             *out += &format!("<figure class=\"drawing\">\n<div>{}</div>\n", drawing(scene));
-            *out += &format!("<figcaption>{}</figcaption>\n</figure>\n", escaped(caption));
+            *out += &format!("<figcaption>{}</figcaption>\n</figure>\n", text::coded(caption));
         }
         Piece::Frames(frames) => moving(out, frames),
         Piece::Verbatim(lines) => text::verbatim(out, lines),

@@ -4,6 +4,7 @@ use lptn_plot::Figure;
 use lptn_report::{Piece, Report};
 use serde_json::{Value, json};
 
+use crate::text::coded;
 use crate::{chart, page};
 
 /// Heading of the results.
@@ -16,14 +17,15 @@ pub fn claims(report: &Report) -> String {
     out
 }
 
-/// The figures in their order: the values of charts that can be zoomed, the picture, the notes.
+/// The figures in their order: the values of charts that can be zoomed, the picture, the notes
+/// as HTML.
 pub fn figures(report: &Report) -> Vec<Value> {
     let pieces = report.sections.iter().flat_map(|section| &section.pieces);
     let one = |figure: &Figure| {
         json!({
             "values": chart::zoomable(figure),
             "picture": chart::picture(figure),
-            "notes": figure.note.lines().collect::<Vec<_>>(),
+            "notes": figure.note.lines().map(coded).collect::<Vec<_>>(),
         })
     };
     let of =

@@ -4,11 +4,11 @@
 /// them.
 const SCRIPTS: [&str; 2] = [
     "sha256-RAis6RoYtIiJmBceEi2mW5qyhxHDDxmmpZFJHFqCyvE=",
-    "sha256-rpNP9Qydw5LAUQCpFQIm8rkWDpXEwHkmYxzHxWvWurg=",
+    "sha256-hBtLBoifXT/78vacTiNmXWrQJjHZ0d1mbx4nwMgROlg=",
 ];
 
 /// Hash of the script of live pages.
-const LIVE: &str = "sha256-u51+tgLsg89OO4Qhmm/O4Jj9P2VBZy1Uha806gStlq8=";
+const LIVE: &str = "sha256-5HJv7aFOwqgQkhTipzS6Z2ptlvPadFRHOj6xjLT/o/k=";
 
 /// The policy: nothing is loaded from anywhere. A live page may compile its core, in a worker whose
 /// script is in the page.

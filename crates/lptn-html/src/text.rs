@@ -18,18 +18,35 @@ pub(crate) fn write(out: &mut String, text: &Text) {
 
 fn block(out: &mut String, block: &Block) {
     match block {
-        Block::Title(title) => *out += &format!("<h3>{}</h3>\n", escaped(title)),
+        Block::Title(title) => *out += &format!("<h3>{}</h3>\n", coded(title)),
         Block::Line(lines) if lines.contains('\n') => verbatim(out, lines),
-        Block::Line(line) => *out += &format!("<p>{}</p>\n", escaped(line)),
+        Block::Line(line) => *out += &format!("<p>{}</p>\n", coded(line)),
         Block::Marked(standing, line) => {
-            *out += &format!("<p class=\"{}\">{}</p>\n", class_of(*standing), escaped(line));
+            *out += &format!("<p class=\"{}\">{}</p>\n", class_of(*standing), coded(line));
         }
         Block::Table(of) => table(out, of),
         Block::Labelled(label, pieces) => {
-            let (label, text) = (escaped(label.trim()), escaped(&pieces.join(" ")));
+            let (label, text) = (escaped(label.trim()), coded(&pieces.join(" ")));
             *out += &format!("<p><span class=\"label\">{label}</span> {text}</p>\n");
         }
     }
+}
+
+/// A text in which names between two backticks are code.
+pub(crate) fn coded(text: &str) -> String {
+    let parts: Vec<&str> = text.split('`').collect();
+    // the last of an even number of parts follows a backtick that none closes
+    let pairs = (parts.len() - 1) / 2 * 2;
+    let mut out = String::new();
+    for (i, part) in parts.iter().enumerate() {
+        let (begin, end) = match i % 2 {
+            1 if i < pairs => ("<code>", "</code>"),
+            1 => ("`", ""),
+            _ => ("", ""),
+        };
+        out += &format!("{begin}{}{end}", escaped(part));
+    }
+    out
 }
 
 /// CSS class of a standing.
@@ -80,9 +97,27 @@ fn table(out: &mut String, table: &TextTable) {
                     _ => class(column).to_owned(),
                 },
             };
-            *out += &format!("<td{class}>{}</td>", escaped(&column.cells[row]));
+            *out += &format!("<td{class}>{}</td>", coded(&column.cells[row]));
         }
         *out += "</tr>\n";
     }
     *out += "</tbody></table></div>\n";
+}
+
+#[cfg(test)]
+mod tests {
+    use super::coded;
+
+    #[test]
+    fn names_between_backticks_are_code() {
+        let cases = [
+            ("`a` and `<b>`", "<code>a</code> and <code>&lt;b&gt;</code>"),
+            ("a ` b", "a ` b"),
+            ("`a` ` b", "<code>a</code> ` b"),
+            ("", ""),
+        ];
+        for (text, expected) in cases {
+            assert_eq!(coded(text), expected);
+        }
+    }
 }

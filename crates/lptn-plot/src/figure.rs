@@ -51,7 +51,8 @@ pub enum Scale {
     Log,
     /// Linear, of times in s.
     Time,
-    /// Named things at 0, 1, 2 …, at equal distances.
+    /// Named things at 0, 1, 2 …, at equal distances. Along a horizontal axis, a name may have
+    /// two lines.
     Names(Vec<String>),
 }
 

@@ -5,6 +5,10 @@ use crate::figure::{Curve, Figure, Look, Panel, Scale};
 /// A day in s.
 const DAY: f64 = 86_400.0;
 
+/// A time in s in which days can no longer be distinguished, and the values of a day that are many.
+const LONG: f64 = 60.0 * DAY;
+const MANY: f64 = 4.0;
+
 impl Figure {
     /// The part of a figure between two times in s. A line ends on its value there.
     #[must_use]
@@ -34,6 +38,23 @@ impl Figure {
                 .collect::<Vec<_>>()
                 .join("\n");
         self
+    }
+
+    /// [Days](Self::daily) if the time is longer than 60 d and has more than four values a day;
+    /// else the figure as it is.
+    #[must_use]
+    pub fn legible(self) -> Self {
+        let lines = self.panels.iter().filter(|panel| panel.x.scale == Scale::Time);
+        let mut lines =
+            lines.flat_map(|panel| &panel.curves).filter(|curve| curve.look == Look::Line);
+        let is_dense = |curve: &Curve| {
+            let [Some(first), Some(last)] = [curve.points.first(), curve.points.last()] else {
+                return false;
+            };
+            let time = last.0 - first.0;
+            time > LONG && curve.points.len() as f64 > MANY * time / DAY
+        };
+        if lines.any(is_dense) { self.daily() } else { self }
     }
 
     /// Multiplies the values of a unit and gives them another one.
@@ -146,6 +167,19 @@ mod tests {
         let curve = &days.panels[0].curves[0];
         assert_eq!(curve.points, [(0.5 * day, 12.0), (1.5 * day, 24.0)]);
         assert_eq!(curve.spread, [(0.0, 24.0), (24.0, 24.0)]);
+    }
+
+    /// Hours of 61 days are shown as days, those of 59 are not, and neither are weeks.
+    #[test]
+    fn only_days_that_cannot_be_told_apart_are_means() {
+        let of = |days: u32, step: u32| {
+            let points = (0..=days * 24).step_by(step as usize);
+            figure(points.map(|h| (f64::from(h) * 3600.0, 0.0)).collect()).legible()
+        };
+        let count = |figure: Figure| figure.panels[0].curves[0].points.len();
+        assert_eq!(count(of(61, 1)), 61);
+        assert_eq!(count(of(59, 1)), 59 * 24 + 1);
+        assert_eq!(count(of(63, 168)), 10);
     }
 
     /// 1 kWh is 3.6 MJ by definition.

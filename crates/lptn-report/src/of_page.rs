@@ -13,13 +13,15 @@ pub fn report_of(page: &dyn Page) -> Report {
     with_results(&page.text(), page.figures(), more)
 }
 
-/// A report with the figures and the text of a page before its own sections.
+/// A report with the figures and the text of a page before its own sections. Months are shown by
+/// days.
 pub fn with_results(text: &Text, figures: Vec<Figure>, report: Report) -> Report {
     let (title, text) = titled(text);
     let mut report = Report { title, ..report };
     let text = report.results.take().unwrap_or(text);
     let mut own: Vec<Section> = std::mem::take(&mut report.answer);
-    for mut figure in figures.into_iter().filter(|figure| !figure.panels.is_empty()) {
+    for figure in figures.into_iter().filter(|figure| !figure.panels.is_empty()) {
+        let mut figure = figure.legible();
         if figure.title == report.title {
             figure.title = String::new();
         }

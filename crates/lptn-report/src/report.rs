@@ -60,6 +60,17 @@ pub enum Piece {
     Verbatim(String),
 }
 
+impl Report {
+    /// The same with a sentence that the page begins with.
+    #[must_use]
+    pub fn answered(mut self, sentence: &str) -> Self {
+        let mut text = Text::new();
+        text.sentence("", sentence);
+        self.answer.push(Section::of("", Piece::Text(text)));
+        self
+    }
+}
+
 impl Section {
     /// A section with one piece.
     pub fn of(title: impl Into<String>, piece: Piece) -> Self {

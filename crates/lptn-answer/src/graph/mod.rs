@@ -7,7 +7,7 @@ pub use kind::Kind;
 
 use std::sync::Arc;
 
-use lptn_graph::{Diagram, Grouping, View};
+use lptn_graph::{Diagram, Grouping, Laid, View};
 use lptn_netlist::{Diagnostic, Files};
 use lptn_plot::{Scene, png, svg};
 use lptn_solve::Snapshot;
@@ -141,11 +141,11 @@ impl Asked<'_> {
             Kind::Dot => lptn_graph::dot(&diagram).into_bytes(),
             Kind::Mermaid => lptn_graph::mermaid(&diagram).into_bytes(),
             _ if sankey => {
-                let scene = lptn_graph::sankey(&diagram);
+                let scene = Laid::of(&diagram).sankey();
                 picture(kind, &scene.map_err(|error| Failure::of(&error))?)?
             }
             _ => {
-                let scene = lptn_graph::scene(&diagram);
+                let scene = Laid::of(&diagram).scene();
                 picture(kind, &scene.map_err(|error| Failure::of(&error))?)?
             }
         };

@@ -9,8 +9,8 @@ impl ImpedanceAnswer {
     pub(super) fn figure(&self) -> Figure {
         let unit = self.unit();
         let ends = match self.name == self.to {
-            true => format!("`{}`", self.to),
-            false => format!("`{}` to `{}`", self.name, self.to),
+            true => self.to.clone(),
+            false => format!("{} to {}", self.name, self.to),
         };
         let title = format!("{}: {ends}", self.input.title());
         match &self.found {

@@ -6,45 +6,67 @@ use lptn_plot::figure::{Axis, Curve, Look, Panel};
 use lptn_report::{MOST_CURVES, TEMPERATURE};
 
 use super::InferAnswer;
-use crate::fit::figure::differences;
+use crate::fit::figure::{differences, dots, sparse, sparse_note};
 
 /// Standard deviations that nearly all readings stay within.
 const TWO: f64 = 2.0;
 
 impl InferAnswer {
     pub(super) fn pictures(&self) -> Vec<Figure> {
-        let mut panels: Vec<Panel> = (0..self.task.sought.len()).map(|j| self.course(j)).collect();
-        panels.extend([self.temperatures(), self.surprises()]);
+        let rows = self.drawn_rows();
+        let courses = 0..self.task.sought.len();
+        let mut panels: Vec<Panel> = courses.map(|j| self.course(j, &rows)).collect();
+        panels.extend([self.temperatures(&rows), self.surprises()]);
         let title = self.input.title();
-        let note = format!(
+        let mut note = format!(
             "bands of 95 %; dots measured ({}); surprise: readings less their predictions from all \
              readings before, in standard deviations",
             self.study.reads.records[0].csv
         );
+        let thin = sparse_note(self.found.times.len());
+        note += &if thin.is_empty() { String::new() } else { format!("\n{thin}") };
         vec![Figure { title, note, panels }]
     }
 
-    fn course(&self, j: usize) -> Panel {
+    /// The rows of lines and bands that are drawn, those next to a jump among them.
+    fn drawn_rows(&self) -> Vec<usize> {
+        let times = &self.found.times;
+        let courses = self.found.courses.iter();
+        let courses = courses.map(|course| course.band.iter().map(|band| band.value).collect());
+        let nodes = self.found.nodes.iter().take(MOST_CURVES);
+        let nodes = nodes.map(|(_, known)| known.iter().map(|known| known.value).collect());
+        let mut drawn: Vec<f64> = Vec::new();
+        for values in courses.chain(nodes).collect::<Vec<Vec<f64>>>() {
+            let points: Vec<(f64, f64)> = times.iter().copied().zip(values).collect();
+            drawn.extend(sparse(&points).iter().map(|point| point.0));
+        }
+        drawn.extend(self.found.jumps.iter().flat_map(|jump| <[f64; 2]>::from(jump.between)));
+        drawn.sort_by(f64::total_cmp);
+        let is_drawn = |row: &usize| drawn.binary_search_by(|t| t.total_cmp(&times[*row])).is_ok();
+        (0..times.len()).filter(is_drawn).collect()
+    }
+
+    fn course(&self, j: usize, rows: &[usize]) -> Panel {
         let (name, unit) = (&self.task.sought[j].name, &self.units[j]);
         let mut panel = Panel::new(Axis::time(), Axis::linear(name, &*unit.text));
         let band = &self.found.courses[j].band;
-        let times = self.found.times.iter().copied();
-        let points = times.zip(band.iter().map(|band| self.shown(j, band.value)));
-        let ends = band.iter().map(|band| (self.shown(j, band.ends.0), self.shown(j, band.ends.1)));
+        let band = || rows.iter().map(|&row| (self.found.times[row], &band[row]));
+        let points = band().map(|(time, band)| (time, self.shown(j, band.value)));
+        let ends = band().map(|(_, b)| (self.shown(j, b.ends.0), self.shown(j, b.ends.1)));
         panel.curves.push(Curve::line(name, points.collect()).within(ends.collect()));
         panel
     }
 
-    fn temperatures(&self) -> Panel {
+    fn temperatures(&self, rows: &[usize]) -> Panel {
         let unit = &self.input.netlist.temperature_unit;
         let mut panel = Panel::new(Axis::time(), Axis::linear(TEMPERATURE, &*unit.text));
         let network = &self.input.netlist.network;
         for (place, (id, known)) in self.found.nodes.iter().enumerate().take(MOST_CURVES) {
             let name = &network.nodes()[id.index()].name;
-            let times = self.found.times.iter().copied();
-            let points = times.zip(known.iter().map(|known| unit.from_si(known.value)));
+            let known = || rows.iter().map(|&row| (self.found.times[row], &known[row]));
+            let points = known().map(|(time, known)| (time, unit.from_si(known.value)));
             let half = lptn_units::statistics::NORMAL_95;
-            let ends = known.iter().map(|known| {
+            let ends = known().map(|(_, known)| {
                 let (value, half) = (known.value, half * known.deviation);
                 (unit.from_si(value - half), unit.from_si(value + half))
             });
@@ -56,7 +78,7 @@ impl InferAnswer {
         for (i, column) in columns.filter(|(_, column)| column.ty.absolute) {
             let times = self.task.run.times.iter().copied();
             let points = times.zip(column.values.iter().map(|kelvin| unit.from_si(*kelvin)));
-            let curve = Curve::line(&column.name, points.collect()).looks(Look::Dots);
+            let curve = dots(&column.name, &points.collect::<Vec<_>>());
             panel.curves.push(curve.as_place(self.place(i)));
         }
         panel
@@ -79,7 +101,7 @@ impl InferAnswer {
         for (i, found) in self.found.columns.iter().enumerate().take(MOST_CURVES) {
             let points = found.surprises.iter().map(|(k, surprise)| (times[*k], *surprise));
             let name = &self.task.run.columns[i].name;
-            let curve = Curve::line(name, points.collect()).looks(Look::Dots);
+            let curve = dots(name, &points.collect::<Vec<_>>());
             panel.curves.push(curve.as_place(self.place(i)));
         }
         panel

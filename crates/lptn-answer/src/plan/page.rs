@@ -64,7 +64,7 @@ impl Page for PlanAnswer {
     }
 
     fn more(&self) -> Report {
-        about::about(&self.input, Known::default())
+        about::about(&self.input, Known::default()).answered(&verdict(self))
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

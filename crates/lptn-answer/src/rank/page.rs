@@ -197,7 +197,8 @@ impl Page for RankAnswer {
     }
 
     fn more(&self) -> Report {
-        about::about(&self.input, Known { unit: Some(&self.unit), ..Known::default() })
+        let known = Known { unit: Some(&self.unit), ..Known::default() };
+        about::about(&self.input, known).answered(&self.verdict())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

@@ -59,7 +59,11 @@ impl RunAnswer {
         if events > self.table.rows() && !drawn {
             notes.push("more happens between rows than they show: --every writes more".into());
         } else if self.task.picture && !drawn {
-            notes.push("too many jumps and bends to draw: straight between rows".into());
+            notes.push(
+                "too many jumps and bends to draw: straight between rows, in means of days too; \
+                 --every writes more"
+                    .into(),
+            );
         }
         notes.extend(limits::broken(&self.judgement(&self.limits())));
         notes.extend(self.ended_early());

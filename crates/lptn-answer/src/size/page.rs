@@ -64,7 +64,7 @@ impl Page for Sized {
     }
 
     fn more(&self) -> Report {
-        about::about(&self.asked.input, Known::default())
+        about::about(&self.asked.input, Known::default()).answered(&verdict(self))
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

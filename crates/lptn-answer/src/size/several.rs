@@ -176,7 +176,7 @@ impl Page for Sized {
     }
 
     fn more(&self) -> Report {
-        about::about(&self.asked.input, Known::default())
+        about::about(&self.asked.input, Known::default()).answered(&self.verdict())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

@@ -14,9 +14,16 @@ use crate::words::spaced;
 /// Most candidates of a figure that have a tooltip each.
 const MOST_TIPS: usize = 2000;
 
-/// Most lines and most scales of candidates over their values.
+/// Most lines, most lines of the front and most scales of candidates over their values.
 const MOST_LINES: usize = 300;
+const MOST_OF_FRONT: usize = 12;
 const MOST_SCALES: usize = 10;
+
+/// Digits of the ends of a scale.
+const END_DIGITS: usize = 3;
+
+/// Inks of candidates that keep their limits, of those that break one, and of the front.
+const INKS: [usize; 3] = [0, 1, 2];
 
 /// Digits of a value in a tooltip.
 const DIGITS: usize = 5;
@@ -85,12 +92,13 @@ impl SweepAnswer {
     /// One report of a front over the other, and the front.
     fn over_the_other(&self, rows: &[&Row]) -> Vec<Panel> {
         let front: Vec<&Row> = self.tally.front.rows().iter().collect();
+        let [_, _, ink] = INKS;
         let [x, y] = self.tally.front.places().unwrap_or_default();
         let upwards = &self.asked.columns[y];
         let upwards = Axis::linear(&upwards.name, &upwards.unit.text);
         let mut panel = Panel::new(self.axis(rows, x), upwards);
         panel.curves.extend(self.dots(rows, (x, y)));
-        panel.curves.push(Curve::line("front", points(&front, (x, y))).looks(Look::Line));
+        panel.curves.push(Curve::line("front", points(&front, (x, y))).as_place(ink));
         vec![panel]
     }
 
@@ -99,11 +107,13 @@ impl SweepAnswer {
     fn dots(&self, rows: &[&Row], (x, y): (usize, usize)) -> Vec<Curve> {
         let (kept, broken): (Vec<&Row>, Vec<&Row>) = rows.iter().partition(|row| row.keeps());
         let name = if broken.is_empty() { "candidates" } else { KEEPS };
-        let curves = [(name, kept), (BREAKS, broken)].into_iter();
-        let curves = curves.filter(|(_, rows)| !rows.is_empty());
-        let dots = |(name, rows): (&str, Vec<&Row>)| {
+        let [keeps, breaks, _] = INKS;
+        let curves = [(name, keeps, kept), (BREAKS, breaks, broken)].into_iter();
+        let curves = curves.filter(|(_, _, rows)| !rows.is_empty());
+        let dots = |(name, ink, rows): (&str, usize, Vec<&Row>)| {
             let tips = self.tips(&sorted(&rows, x)).unwrap_or_default();
-            Curve::line(name, points(&rows, (x, y))).looks(Look::Dots).tipped(tips)
+            let dots = Curve::line(name, points(&rows, (x, y))).looks(Look::Dots);
+            dots.as_place(ink).tipped(tips)
         };
         curves.map(dots).collect()
     }
@@ -127,7 +137,7 @@ impl SweepAnswer {
         format!("case {}: {}{limits}", row.case + 1, values.join(", "))
     }
 
-    /// Every candidate as a line over its axes and reports, each scaled to its range; those that
+    /// Every candidate as a line over its axes and reports, each scaled to its range. Those that
     /// keep their limits, and the front, are drawn last. `None` for one axis.
     pub(super) fn parallel(&self) -> Option<Figure> {
         let rows: Vec<&Row> =
@@ -138,41 +148,54 @@ impl SweepAnswer {
         }
         let stride = rows.len().div_ceil(MOST_LINES);
         let shown: Vec<&Row> = rows.iter().step_by(stride).copied().collect();
+        let front = self.tally.front.some(MOST_OF_FRONT);
         let range = |place: usize| {
-            let values = rows.iter().map(|row| row.numbers[place]).filter(|x| x.is_finite());
+            let values = rows.iter().chain(&front).map(|row| row.numbers[place]);
+            let values = values.filter(|x| x.is_finite());
             values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)))
         };
         let ranges: Vec<(f64, f64)> = (0..columns).map(range).collect();
-        let names = self.asked.columns[..columns].iter().map(|column| column.name.clone());
-        let x = Axis::names("", names.collect());
-        let mut panel = Panel::new(x, Axis::linear("place in the range", ""));
-        let mut group = |name: &str, place: usize, rows: &[&Row]| {
+        let mut panel = Panel::new(self.scales(&ranges), Axis::linear("place in the range", ""));
+        let scales = (0..columns).map(|i| Moment { name: String::new(), at: i as f64 });
+        panel.moments.extend(scales);
+        let (kept, broken): (Vec<&Row>, Vec<&Row>) = shown.iter().partition(|row| row.keeps());
+        let name = if broken.is_empty() { "candidates" } else { KEEPS };
+        let [keeps, breaks, best] = INKS;
+        for (name, ink, rows) in
+            [(BREAKS, breaks, broken), (name, keeps, kept), ("front", best, front)]
+        {
             let line = |row: &&Row| {
-                let points =
-                    ranges.iter().zip(&row.numbers).zip(0..).map(|((&(low, high), v), i)| {
-                        let at = if high > low { (v - low) / (high - low) } else { 0.5 };
-                        (f64::from(i), at)
-                    });
-                Curve::line(name, points.collect()).as_place(place).tipped(vec![self.said(row)])
+                Curve::line(name, along(row, &ranges)).as_place(ink).tipped(vec![self.said(row)])
             };
             panel.curves.extend(rows.iter().map(line));
-        };
-        let (kept, broken): (Vec<&Row>, Vec<&Row>) = shown.iter().partition(|row| row.keeps());
-        group(BREAKS, 1, &broken);
-        group(if broken.is_empty() { "candidates" } else { KEEPS }, 0, &kept);
-        let front: Vec<&Row> = self.tally.front.rows().iter().collect();
-        group("front", 2, &front);
-        for (i, (column, (low, high))) in self.asked.columns.iter().zip(&ranges).enumerate() {
-            let unit = printed(&column.unit.text);
-            let ends = [low, high].map(|end| significant(*end, DIGITS));
-            let name = format!("{} \u{2026} {} {unit}", ends[0], ends[1]);
-            panel.moments.push(Moment { name, at: i as f64 });
         }
-        let note = match stride > 1 {
-            true => format!("{} of {} candidates are shown", shown.len(), self.tally.rows),
-            false => String::new(),
-        };
+        let note = self.left_out(shown.len());
         Some(Figure { title: "Candidates over their values".to_owned(), note, panels: vec![panel] })
+    }
+
+    /// Names of the first columns, each with the ends of its range.
+    fn scales(&self, ranges: &[(f64, f64)]) -> Axis {
+        let name = |(column, (low, high)): (&Column, &(f64, f64))| {
+            let [low, high] = [low, high].map(|end| significant(*end, END_DIGITS));
+            let unit = printed(&column.unit.text);
+            let unit = if unit.is_empty() { unit } else { format!(" [{unit}]") };
+            format!("{}{unit}\n{low} \u{2026} {high}", column.name)
+        };
+        Axis::names("", self.asked.columns.iter().zip(ranges).map(name).collect())
+    }
+
+    /// The numbers of candidates that are drawn, if those are not all.
+    fn left_out(&self, shown: usize) -> String {
+        let front = self.tally.front.rows().len();
+        let of_front = self.tally.front.some(MOST_OF_FRONT).len();
+        let mut notes = Vec::new();
+        if (shown as u64) < self.tally.rows {
+            notes.push(format!("{shown} of {} candidates are shown", self.tally.rows));
+        }
+        if of_front < front {
+            notes.push(format!("{of_front} of {front} of the front"));
+        }
+        notes.join(", ")
     }
 
     fn axis(&self, rows: &[&Row], place: usize) -> Axis {
@@ -189,6 +212,14 @@ impl SweepAnswer {
 
 fn points(rows: &[&Row], (x, y): (usize, usize)) -> Vec<(f64, f64)> {
     sorted(rows, x).iter().map(|row| (row.numbers[x], row.numbers[y])).collect()
+}
+
+/// The values of a row, each as its place in its range from 0 to 1.
+fn along(row: &Row, ranges: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let place = |(i, (&(low, high), value)): (usize, (&(f64, f64), &f64))| {
+        (i as f64, if high > low { (value - low) / (high - low) } else { 0.5 })
+    };
+    ranges.iter().zip(&row.numbers).enumerate().map(place).collect()
 }
 
 /// Rows by the value at a place.

@@ -28,6 +28,14 @@ impl Front {
         &self.rows
     }
 
+    /// Every so many of its rows that there are about `most`, the first and the last among them.
+    pub(super) fn some(&self, most: usize) -> Vec<&Row> {
+        let stride = self.rows.len().div_ceil(most).max(1);
+        let mut some: Vec<&Row> = self.rows.iter().step_by(stride).collect();
+        some.extend(self.rows.last().filter(|_| stride > 1 && self.rows.len() % stride != 1));
+        some
+    }
+
     /// Takes in a row that did not fail.
     pub(super) fn add(&mut self, row: &Row) {
         let Some([first, second]) = self.places else { return };

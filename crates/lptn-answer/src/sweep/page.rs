@@ -129,11 +129,7 @@ impl SweepAnswer {
 
     /// The candidates that none betters in both reports of a front, some of many evenly.
     fn front(&self) -> TextTable {
-        let all = self.tally.front.rows();
-        let stride = all.len().div_ceil(MOST_NODES).max(1);
-        let last = all.last().filter(|_| all.len() % stride != 1 && stride > 1);
-        let mut rows: Vec<&Row> = all.iter().step_by(stride).collect();
-        rows.extend(last);
+        let rows = self.tally.front.some(MOST_NODES);
         let (axes, columns) = (self.axes().len(), &self.asked.columns);
         let number = |row: &Row, place: usize| significant(row.numbers[place], DIGITS);
         let [first, second] = self.tally.front.places().unwrap_or_default();

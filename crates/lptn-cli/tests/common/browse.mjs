@@ -1,18 +1,18 @@
-// Opens a page in Chromium as it is, under its own policy, and prints what an expression gives in it, what the console
-// said, and what was requested beside the page. `node browse.mjs FOLDER PAGE WIDTH EXPRESSION`, which may be a promise.
+// Opens pages in Chromium as they are, under their own policies, and prints for each, in a line, what an expression gives
+// in it, what the console said, and what was requested beside the page. `node browse.mjs FOLDER EXPRESSION WIDTH:PAGE...`;
+// the expression may be a promise.
 //
 // `--dump-dom` with a budget of virtual time does not wait for a worker; the protocol of developer tools does.
 import { spawn } from "node:child_process";
 import { pathToFileURL } from "node:url";
 
-const [folder, page, width, expression] = process.argv.slice(2);
+const [folder, expression, ...pages] = process.argv.slice(2);
 const browser = spawn("chromium", ["--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
   "--disable-background-networking", "--remote-debugging-pipe", `--user-data-dir=${folder}/profile`], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
 browser.on("error", () => { console.log(JSON.stringify({ missing: true })); process.exit(0); });
 const [input, output] = [browser.stdio[3], browser.stdio[4]];
-const waiting = new Map(), said = [], requested = [];
-let count = 0, session, loaded, left = "";
-const whole = new Promise(done => { loaded = done; });
+const waiting = new Map();
+let count = 0, session, loaded, left = "", said = [], requested = [];
 const ask = (method, params = {}) => new Promise((done, failed) => {
   waiting.set(++count, [done, failed]);
   input.write(JSON.stringify({ id: count, method, params, sessionId: session }) + "\0");
@@ -37,15 +37,20 @@ output.on("data", data => {
 const { targetId } = await ask("Target.createTarget", { url: "about:blank" });
 session = (await ask("Target.attachToTarget", { targetId, flatten: true })).sessionId;
 for (const domain of ["Page", "Runtime", "Log", "Network"]) await ask(domain + ".enable");
-await ask("Emulation.setDeviceMetricsOverride",
-  { width: Number(width), height: 1200, deviceScaleFactor: 1, mobile: false });
-const address = pathToFileURL(`${folder}/${page}`).href;
-await ask("Page.navigate", { url: address });
-await whole;
-const { result, exceptionDetails } = await ask("Runtime.evaluate",
-  { expression, awaitPromise: true, returnByValue: true });
-if (exceptionDetails) said.push(exceptionDetails.exception.description);
-const elsewhere = requested.filter(url => url != address.slice(0, 80) && !url.startsWith("blob:"));
-console.log(JSON.stringify({ value: result.value, said, requested: elsewhere }));
+for (const of of pages) {
+  const [, width, page] = of.match(/^(\d+):(.*)$/);
+  const metrics = { width: Number(width), height: 1200, deviceScaleFactor: 1, mobile: false };
+  await ask("Emulation.setDeviceMetricsOverride", metrics);
+  [said, requested] = [[], []];
+  const address = pathToFileURL(`${folder}/${page}`).href;
+  const whole = new Promise(done => { loaded = done; });
+  await ask("Page.navigate", { url: address });
+  await whole;
+  const { result, exceptionDetails } = await ask("Runtime.evaluate",
+    { expression, awaitPromise: true, returnByValue: true });
+  if (exceptionDetails) said.push(exceptionDetails.exception.description);
+  const elsewhere = requested.filter(url => url != address.slice(0, 80) && !url.startsWith("blob:"));
+  console.log(JSON.stringify({ value: result.value, said, requested: elsewhere }));
+}
 session = undefined;
 await ask("Browser.close");

@@ -2,10 +2,12 @@
 #![allow(
     dead_code,
     unreachable_pub,
+    clippy::print_stderr,
     clippy::unwrap_used,
     reason = "each test file uses a part of it"
 )]
 
+pub mod browse;
 pub mod random;
 
 use std::io::Write as _;

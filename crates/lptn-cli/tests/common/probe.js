@@ -1,4 +1,4 @@
-// Looks at a page from inside: what is drawn, what zoom and legend do, and how readable it is.
+// Looks at a page from inside: what is drawn, what zoom and legend do, how readable it is, what keys reach.
 (async () => {
 // the charts draw when a script has come to rest
 const rest = () => new Promise(done => setTimeout(done, 0));
@@ -41,6 +41,26 @@ found.wide = texts()
     element.getBoundingClientRect().right > document.documentElement.clientWidth + 1)
   .map(element => element.textContent.trim().slice(0, 40));
 
+// what a mouse can use, keys can: it has a name, is in the order of the tab key, and shows that it has the focus
+const spoken = part => part.getAttribute("aria-label") || part.textContent.trim() ||
+  (part.id && (document.querySelector("label[for=" + part.id + "]") || {}).textContent) ||
+  (part.closest("label") || {}).textContent;
+const used = "button, input, summary, a, [tabindex], .u-legend .u-series:not(:first-child) th, .drawing > div";
+found.used = 0;
+found.unreached = [];
+for (const part of document.querySelectorAll(used)) {
+  if (!part.checkVisibility()) continue;
+  const before = [getComputedStyle(part).outlineStyle, getComputedStyle(part).borderColor].join();
+  part.focus({ focusVisible: true });
+  const after = [getComputedStyle(part).outlineStyle, getComputedStyle(part).borderColor].join();
+  const named = part.matches(".drawing > div") || spoken(part);
+  found.used += 1;
+  if (part.tabIndex < 0 || document.activeElement != part || !named || before == after) {
+    found.unreached.push(part.outerHTML.slice(0, 80));
+  }
+  part.blur();
+}
+
 // which drawing a slider shows, at its end and at its beginning
 found.frames = Array.from(document.querySelectorAll("figure.frames")).map(figure => {
   const slider = figure.querySelector("input"), frames = Array.from(figure.querySelectorAll("div"));
@@ -69,6 +89,20 @@ for (const figure of lptn.figures) {
     seen.hidden = chart.series.map(series => series.show);
     label.click();
     seen.shown = chart.series.map(series => series.show);
+    const press = (part, key) => part.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+    press(label, "Enter");
+    seen.pressed = [chart.series[of].show, label.getAttribute("aria-pressed")];
+    press(label, " ");
+    const range = () => [chart.scales.x.min, chart.scales.x.max];
+    press(chart.root, "+");
+    await rest();
+    seen.nearer = range();
+    press(chart.root, "ArrowLeft");
+    await rest();
+    seen.moved = range();
+    press(chart.root, "0");
+    await rest();
+    seen.all = range();
     const begun = performance.now();
     for (let i = 0; i < 20; i++) {
       chart.setScale("x", { min: x[0], max: i % 2 ? end : middle });
@@ -90,6 +124,8 @@ for (const { svg, frame } of lptn.drawings) {
   const seen = { before: view(), right: svg.getBoundingClientRect().right, page: document.documentElement.clientWidth };
   buttons[0].click();
   seen.nearer = view();
+  const beside = Array.from(frame.parentElement.querySelectorAll("svg"), other => other.getAttribute("viewBox"));
+  seen.together = beside.every(other => other == seen.nearer.join(" "));
   press("ArrowRight");
   seen.moved = view();
   buttons[2].click();
@@ -101,8 +137,5 @@ for (const { svg, frame } of lptn.drawings) {
   if (folded) folded.open = false;
   found.drawings.push(seen);
 }
-const out = document.createElement("pre");
-out.id = "probe";
-out.textContent = JSON.stringify(found);
-document.body.append(out);
+return found;
 })();

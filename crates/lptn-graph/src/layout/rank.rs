@@ -89,9 +89,10 @@ fn shorten(rank: &mut [usize], into: &[Vec<usize>]) {
             for right in [true, false] {
                 let next = if right { &out } else { into };
                 let Some(pushed) = pushed(place, rank, (next, right)) else { continue };
-                let before = length(rank, into);
+                let ends = ends(&pushed, &out);
+                let before = length(&ends, rank, into);
                 shift(rank, &pushed, right);
-                if length(rank, into) < before {
+                if length(&ends, rank, into) < before {
                     moved = true;
                 } else {
                     shift(rank, &pushed, !right);
@@ -136,12 +137,22 @@ fn pushed(
     Some(found)
 }
 
-/// Columns that all wires pass.
-fn length(rank: &[usize], into: &[Vec<usize>]) -> usize {
-    let of = |(place, before): (usize, &Vec<usize>)| {
-        before.iter().map(|a| rank[*a]).min().map_or(0, |first| rank[place] - first)
+/// Some places, and those to which they lead: only their wires change if the places move.
+fn ends(places: &[usize], out: &[Vec<usize>]) -> Vec<usize> {
+    let mut ends: Vec<usize> = places.iter().flat_map(|place| &out[*place]).copied().collect();
+    ends.extend(places);
+    ends.sort_unstable();
+    ends.dedup();
+    ends
+}
+
+/// Columns that the wires to these places pass.
+fn length(places: &[usize], rank: &[usize], into: &[Vec<usize>]) -> usize {
+    let of = |&place: &usize| {
+        let first = into[place].iter().map(|a| rank[*a]).min();
+        first.map_or(0, |first| rank[place] - first)
     };
-    into.iter().enumerate().map(of).sum()
+    places.iter().map(of).sum()
 }
 
 #[cfg(test)]

@@ -1,10 +1,13 @@
 //! The heat of a diagram as bars and bands between them.
 
 use super::streams::Streams;
-use crate::model::Diagram;
+use crate::model::{Diagram, Supply};
 
 /// Flows below this share of the largest are not shown.
 const LEAST: f64 = 1e-9;
+
+/// More sources of one place than this have one bar together.
+const MOST_SOURCES: usize = 4;
 
 /// The heat of a state: its origins, the places that it passes, and its destinations.
 #[derive(Clone, Debug, Default)]
@@ -34,7 +37,7 @@ pub struct Bar {
 pub enum BarRole {
     /// A node, a boundary or a group, by its position in [`Diagram::places`].
     Place(usize),
-    /// A source; if it cools, the heat that it takes.
+    /// A source, or many of one place; if they cool, the heat that they take.
     Source,
     /// The fluid of a stream: the heat that it brings and carries away.
     Stream,
@@ -74,10 +77,7 @@ impl HeatFlows {
         let places = diagram.places.iter().enumerate();
         let bars = places.map(|(i, place)| Bar::new(place.name.clone(), BarRole::Place(i)));
         let mut all = Self { bars: bars.collect(), bands: Vec::new() };
-        for source in &diagram.sources {
-            let heat = source.heat.unwrap_or(0.0);
-            all.own_bar(Bar::new(source.name.clone(), BarRole::Source), source.into, heat);
-        }
+        all.sources(diagram);
         let streams = Streams::of(diagram);
         for (link, carried) in diagram.links.iter().zip(&streams.carried) {
             let heat = link.heat.unwrap_or(0.0);
@@ -96,6 +96,25 @@ impl HeatFlows {
         }
         all.store(diagram);
         all.without_dust()
+    }
+
+    /// A bar for each source; one for those that heat one place, or cool it, if they are many.
+    fn sources(&mut self, diagram: &Diagram) {
+        let alike = |one: &Supply, other: &Supply| {
+            let cools = |source: &Supply| source.heat.is_some_and(|heat| heat < 0.0);
+            one.into == other.into && cools(one) == cools(other)
+        };
+        for (i, source) in diagram.sources.iter().enumerate() {
+            let all: Vec<&Supply> =
+                diagram.sources.iter().filter(|other| alike(source, other)).collect();
+            let (name, of) = match all.len() > MOST_SOURCES {
+                true if diagram.sources[..i].iter().any(|other| alike(source, other)) => continue,
+                true => (format!("{} sources", all.len()), all),
+                false => (source.name.clone(), vec![source]),
+            };
+            let heat = of.iter().filter_map(|source| source.heat).sum();
+            self.own_bar(Bar::new(name, BarRole::Source), source.into, heat);
+        }
     }
 
     /// Adds a separate bar, with heat from it to a place, or to that bar if negative.

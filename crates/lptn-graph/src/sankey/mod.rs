@@ -16,12 +16,10 @@ use lptn_report::shortened;
 
 pub use flows::{Band, Bar, BarRole, HeatFlows};
 
-use crate::direction::ends;
 use crate::groups::MOST_PLACES;
 use crate::legend;
 use crate::model::{Diagram, Scales};
-use crate::picture::arranged;
-use crate::supplies::supplies;
+use crate::picture::Laid;
 use crate::symbols::{self, MARK};
 use place::{LABEL, Placed, PlacedBand, place};
 
@@ -73,42 +71,45 @@ const MOST_WIDTH: f64 = 1400.0;
 /// A band that is narrower than this has no room for its name.
 const NAMED: f64 = 20.0;
 
-/// The heat flows of a diagram as a drawing, with its places in the columns and in the order of
-/// [`scene`](crate::scene()). Most heat flows from left to right. Bands that flow back bear an arrow.
-///
-/// # Errors
-/// [`NoSankey`] if no state is shown, if nothing flows in it, or if there are more than
-/// [`MOST_PLACES`] bars.
-pub fn sankey(diagram: &Diagram) -> Result<Scene, NoSankey> {
-    let scales = diagram.scales.as_ref().ok_or(NoSankey::NoState)?;
-    let flows = HeatFlows::of(diagram);
-    match flows.bars.len() {
-        0 => return Err(NoSankey::NoHeat),
-        bars if bars > MOST_PLACES => return Err(NoSankey::TooMany { bars }),
-        _ => {}
+impl Laid<'_> {
+    /// The heat flows as a drawing, with its places in the columns and in the order of the
+    /// [circuit](Laid::scene). Most heat flows from left to right. Bands that flow back bear an
+    /// arrow.
+    ///
+    /// # Errors
+    /// [`NoSankey`] if no state is shown, if nothing flows in it, or if there are more than
+    /// [`MOST_PLACES`] bars.
+    pub fn sankey(&self) -> Result<Scene, NoSankey> {
+        let diagram = self.diagram;
+        let scales = diagram.scales.as_ref().ok_or(NoSankey::NoState)?;
+        let flows = HeatFlows::of(diagram);
+        match flows.bars.len() {
+            0 => return Err(NoSankey::NoHeat),
+            bars if bars > MOST_PLACES => return Err(NoSankey::TooMany { bars }),
+            _ => {}
+        }
+        let placed = place(&flows, self.arranged());
+        let (flows, placed) = (&flows, &placed);
+        let (x, free) = (Vec::new(), Vec::new());
+        let mut drawing = Drawing { diagram, scales, flows, placed, x, free, named: true };
+        let mut wide = drawing.columns();
+        if wide > MOST_WIDTH {
+            drawing.named = false;
+            wide = drawing.columns();
+        }
+        let head = if diagram.title.is_empty() { 0.0 } else { 40.0 };
+        let caption = caption(diagram, scales);
+        let legend = legend::scale_size(&caption);
+        let wide = wide.max(width(&diagram.title, 16.0, true)).max(legend.width);
+        let size = (wide + 2.0 * MARGIN, head + placed.height + legend.height + 2.0 * MARGIN);
+        let mut scene = Scene::new((size.0.ceil(), size.1.ceil()), diagram.title.clone());
+        let title = Text::new(diagram.title.clone(), (MARGIN, MARGIN + 12.0), 16.0, Ink::Text);
+        scene.write(title.bold());
+        drawing.draw(&mut scene, MARGIN + head);
+        let corner = (MARGIN, size.1 - MARGIN - legend.height + legend::GAP);
+        legend::scale(&mut scene, (&scales.ends, &scales.ticks), &caption, corner);
+        Ok(scene)
     }
-    let circuit = arranged(diagram, &ends(diagram), &supplies(diagram));
-    let placed = place(&flows, &circuit);
-    let (flows, placed) = (&flows, &placed);
-    let mut drawing =
-        Drawing { diagram, scales, flows, placed, x: Vec::new(), free: Vec::new(), named: true };
-    let mut wide = drawing.columns();
-    if wide > MOST_WIDTH {
-        drawing.named = false;
-        wide = drawing.columns();
-    }
-    let head = if diagram.title.is_empty() { 0.0 } else { 40.0 };
-    let caption = caption(diagram, scales);
-    let legend = legend::scale_size(&caption);
-    let wide = wide.max(width(&diagram.title, 16.0, true)).max(legend.width);
-    let size = (wide + 2.0 * MARGIN, head + placed.height + legend.height + 2.0 * MARGIN);
-    let mut scene = Scene::new((size.0.ceil(), size.1.ceil()), diagram.title.clone());
-    let title = Text::new(diagram.title.clone(), (MARGIN, MARGIN + 12.0), 16.0, Ink::Text);
-    scene.write(title.bold());
-    drawing.draw(&mut scene, MARGIN + head);
-    let corner = (MARGIN, size.1 - MARGIN - legend.height + legend::GAP);
-    legend::scale(&mut scene, (&scales.ends, &scales.ticks), &caption, corner);
-    Ok(scene)
 }
 
 /// The caption of the state, and the meaning of the heat of streams.

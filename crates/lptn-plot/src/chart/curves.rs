@@ -7,8 +7,11 @@ use crate::ink::{Ink, SERIES};
 use crate::scene::{Dash, Path, Scene, Step, Stroke, circle, line, polygon, rectangle};
 use crate::thin::thinned;
 
-/// Width of a curve.
-const LINE: f64 = 1.8;
+/// Width of a curve, one among few and one among many of the same name.
+const LINES: [f64; 2] = [1.8, 0.7];
+
+/// More curves of the same name than this are many.
+const FEW: usize = 20;
 
 /// Height of a bar across.
 const BAR: f64 = 13.0;
@@ -36,7 +39,7 @@ pub(super) fn draw(scene: &mut Scene, panel: &Panel, area: &Area) {
         // dashes distinguish the second round of colours
         let second = curve.place.unwrap_or(place) >= SERIES;
         let dash = if second || curve.look == Look::Dashed { Dash::Dashed } else { Dash::Solid };
-        let stroke = Stroke { ink, width: LINE, dash };
+        let stroke = Stroke { ink, width: width(panel, curve), dash };
         match curve.look {
             Look::Line | Look::Dashed => lines(scene, curve, (panel, area), stroke),
             Look::Dots => dots(scene, curve, (panel, area), ink),
@@ -44,6 +47,13 @@ pub(super) fn draw(scene: &mut Scene, panel: &Panel, area: &Area) {
             Look::Bars => across(scene, curve, (panel, area), ink),
         }
     }
+}
+
+/// Lines of one kind are thin if they are many.
+fn width(panel: &Panel, curve: &Curve) -> f64 {
+    let alike =
+        panel.curves.iter().filter(|other| other.name == curve.name && !curve.name.is_empty());
+    LINES[usize::from(alike.count() > FEW)]
 }
 
 type Place<'a> = (&'a Panel, &'a Area);
@@ -109,7 +119,7 @@ fn stems(scene: &mut Scene, curve: &Curve, place: Place<'_>, ink: Ink) {
     let foot = if place.0.y.scale == Scale::Log { place.1.y.range.0 } else { 0.0 };
     for &(x, y) in &curve.points {
         if let (Some(top), Some(foot)) = (on_page(place, (x, y)), on_page(place, (x, foot))) {
-            scene.put(line([foot, top]).stroked(Stroke::solid(ink, LINE)));
+            scene.put(line([foot, top]).stroked(Stroke::solid(ink, LINES[0])));
             scene.put(circle(top, DOTS[0]).filled(ink, 1.0));
         }
     }

@@ -38,9 +38,9 @@ pub(super) fn draw(scene: &mut Scene, panel: &Panel, area: &Area, shared: bool) 
     for (value, text) in &area.x.ticks {
         let x = area.x_at(*value);
         scene.put(line([(x, area.top), (x, area.bottom)]).stroked(grid));
-        if !shared {
-            let text = Text::new(text, (x, area.bottom + SMALL + 5.0), SMALL, Ink::Faint);
-            scene.write(text.aligned(Align::Middle));
+        for (line, below) in text.lines().zip(1..).filter(|_| !shared) {
+            let y = area.bottom + f64::from(below) * (SMALL + 2.0) + 3.0;
+            scene.write(Text::new(line, (x, y), SMALL, Ink::Faint).aligned(Align::Middle));
         }
     }
     axes(scene, area);
@@ -152,7 +152,8 @@ fn moments(scene: &mut Scene, panel: &Panel, area: &Area) {
         let stroke = Stroke { ink: Ink::Frame, width: 1.0, dash: Dash::Dotted };
         let path = line([(x, area.top), (x, area.bottom)]).stroked(stroke);
         scene.put(path.tipped(&moment.name));
-        let fits = width(&moment.name, SMALL, false) < area.bottom - area.top - 8.0;
+        let fits = !moment.name.is_empty()
+            && width(&moment.name, SMALL, false) < area.bottom - area.top - 8.0;
         if x - last < APART || !fits {
             continue;
         }

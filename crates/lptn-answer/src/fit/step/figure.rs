@@ -9,7 +9,7 @@ use lptn_units::Unit;
 
 use super::estimate::with_error;
 use super::{FitStepAnswer, StepColumn};
-use crate::fit::figure::differences;
+use crate::fit::figure::{differences, dots, sparse_note};
 use crate::words::difference;
 
 /// Points of a curve that is drawn.
@@ -41,6 +41,8 @@ impl FitStepAnswer {
             panel.curves.push(curve.as_place(place + self.without.len()));
             notes.push(format!("{} as {} computes it is dashed too", model.port, model.file));
         }
+        let thin = sparse_note(self.request.record.time.len());
+        notes.extend(Some(thin.to_owned()).filter(|note| !note.is_empty()));
         let panels = vec![panel, missed];
         Figure { title: self.request.name.clone(), note: notes.join("\n"), panels }
     }
@@ -68,8 +70,8 @@ fn left_out(count: usize) -> Option<String> {
 fn measured(answer: &FitStepAnswer, column: &RecordColumn) -> Curve {
     let unit = &answer.request.unit;
     let rows = answer.request.record.time.iter().zip(&column.values);
-    let points = rows.map(|(&time, &kelvin)| (time, unit.from_si(kelvin))).collect();
-    Curve::line(&column.name, points).looks(Look::Dots)
+    let points: Vec<_> = rows.map(|(&time, &kelvin)| (time, unit.from_si(kelvin))).collect();
+    dots(&column.name, &points)
 }
 
 /// A column of the record with its ink.
@@ -141,7 +143,7 @@ impl Drawn<'_> {
         let step = self.unit().scale;
         let rows = self.answer.request.record.time.iter().zip(&self.column.column.values);
         let missed = rows.map(|(&time, &kelvin)| (time, (kelvin - fit.at(time - first)) / step));
-        let dots = Curve::line(self.name(), missed.collect()).looks(Look::Dots);
+        let dots = dots(self.name(), &missed.collect::<Vec<_>>());
         let mut curves = Vec::new();
         if let Some(two) = &fit.second.offer {
             let name = format!("{}, two exponentials", self.name());
