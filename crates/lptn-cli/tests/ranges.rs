@@ -106,7 +106,7 @@ stop = "10 s"
     folder.run(&["steady", "x.toml", "--report=page.html"]).exits(0);
     let page = folder.read("page.html");
     assert!(page.contains("no law, fluid or capacity left its range"), "{page}");
-    assert!(page.contains("unverified constants: `shaft`"), "{page}");
+    assert!(page.contains("unverified constants: <code>shaft</code>"), "{page}");
     folder.write("y.toml", &shaft.replace("3000 rpm", "300000 rpm"));
     folder.run(&["steady", "y.toml", "--report=page.html"]).exits(0);
     assert!(

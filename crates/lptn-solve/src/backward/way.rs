@@ -10,8 +10,9 @@ use crate::margin::Point;
 use crate::settings::{Proceed, Progress};
 use crate::stepper::cvodes;
 
-/// Tolerance of the adjoint as a share of its largest value, for one of the run of 1 K.
-const SHARE: f64 = 0.1;
+/// Tolerance of the adjoint as a share of its largest value, for one of the run of 1 K. The running
+/// integrals have no tolerance of their own and err by up to a hundred times this.
+const SHARE: f64 = 0.01;
 
 /// Bounds of that tolerance; below the lower one rounding decides.
 const FINEST: f64 = 1e-12;
