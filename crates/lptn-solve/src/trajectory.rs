@@ -26,12 +26,11 @@ pub enum NoTrajectory {
              through all of them"
         ),
         help "take a looser tolerance, or a shorter run";
-    /// Two controls or comparisons switch at one time.
-    Together { names: [String; 2], time: f64 } = "gradient::together",
+    /// A control or comparison switches at the time of another one: its name and the time in s.
+    Together { name: String, time: f64 } = "gradient::together",
         format!(
-            "`{}` and `{}` switch at the same time, {time} s: a parameter may part them, so that \
-             there is no gradient",
-            names[0], names[1]
+            "`{name}` switches at the same time as another control or comparison, {time} s: a \
+             parameter may part them, so that there is no gradient"
         ),
         help "begin at another value, or use a method without derivatives";
 }
@@ -129,6 +128,9 @@ impl Trajectory {
     /// Adds a piece with its values at those times, and the temperatures in K of massless nodes at
     /// its end.
     pub(crate) fn add(&mut self, (from, to): (f64, f64), values: Vec<f64>, branch: Vec<f64>) {
+        if from >= to {
+            return;
+        }
         let steps = self.stretches.iter().map(|stretch| stretch.pieces.len()).sum::<usize>();
         self.bytes += (values.len() + branch.len()) * size_of::<f64>();
         if self.bytes > MOST_BYTES {
@@ -141,9 +143,21 @@ impl Trajectory {
         }
     }
 
-    /// There is no way back through the run.
-    pub(crate) fn fail(&mut self, reason: NoTrajectory) {
-        self.failure.get_or_insert(reason);
+    /// Refuses the way back if several positions are due, or if something switched at this time
+    /// before; `name` is that of a position.
+    pub(crate) fn check_alone(
+        &mut self,
+        (time, due): (f64, &[usize]),
+        name: impl Fn(usize) -> String,
+    ) {
+        let [ref others @ .., last] = *due else { return };
+        let (ended, begun) = match self.stretches.as_slice() {
+            [.., before, now] => (before.end.is_some(), now.pieces.is_empty()),
+            _ => (false, false),
+        };
+        if !others.is_empty() || ended && begun {
+            self.failure.get_or_insert(NoTrajectory::Together { name: name(last), time });
+        }
     }
 
     /// The stretch ends with a switch at a time in s. `waited` is the control whose dwell ended, if

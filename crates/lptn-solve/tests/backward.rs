@@ -1,7 +1,7 @@
 //! Gradients of runs by their adjoint, against forward sensitivities and differences of runs.
 
 use lptn_assembly::ThermalSystem;
-use lptn_network::{Functional, LimitId, Network, ParameterId, Time};
+use lptn_network::{Functional, IntegratorChoice, LimitId, Network, ParameterId, Time};
 use lptn_solve::{Proceed, Solution, Transient, sensitive_run};
 
 use crate::features::Dice;
@@ -94,6 +94,32 @@ fn both_ways_in_time_agree() {
             near(found, expected, (1e-8, expected.abs().max(1e-3)));
         }
     }
+}
+
+/// A trajectory consists of polynomials over short steps, also if the network asks for the one-step
+/// method. With x = exp(-G t / C): T = 20 degC + P/G (1 - x).
+#[test]
+fn the_method_that_is_asked_for_does_not_matter() {
+    let network = network(
+        "[param]\nP = \"40 W\"\nG = \"2 W/K\"\n[node]\nbody = { C = \"500 J/K\", T0 = \"20 degC\" \
+         }\n[boundary]\nair = { T = \"20 degC\" }\n[resistor]\nskin = { from = \"body\", to = \"air\", G = \
+         \"G\" }\n[source]\nheat = { into = \"body\", P = \"P\" }\n[limit]\nhot = { of = \"body.T\", below = \
+         \"90 degC\" }\n[run]\nstop = \"1000 s\"\n",
+    );
+    let integrator = IntegratorChoice::OneStep;
+    let settings = Transient { trajectory: true, integrator, ..until(1000.0, 1e-9) };
+    let solution = run(&network, &settings);
+    let (limit, parameters) = (network.limit_ids().next().unwrap(), network.parameter_ids());
+    let parameters: Vec<ParameterId> = parameters.collect();
+    let mean = (limit, Functional::Mean);
+    let found = solution.margin_gradient(mean, &parameters, &|_| Proceed::Continue).unwrap();
+    let (p, g, c, t) = (40.0, 2.0, 500.0, 1000.0);
+    let x = f64::exp(-g * t / c);
+    let part = 1.0 - c / (g * t) * (1.0 - x);
+    let by_g = -p / (g * g) * part + p / g * (c / (g * g * t) * (1.0 - x) - x / g);
+    near(found.margin, 70.0 - p / g * part, (1e-8, 1.0));
+    near(found.by[0], -part / g, (1e-8, 1.0));
+    near(found.by[1], -by_g, (1e-8, 1.0));
 }
 
 /// The node that each heater heats.

@@ -53,8 +53,9 @@ struct Sought<'a> {
 
 impl Solution {
     /// The margin of a limit at the end of the run, its least or its largest value, its mean or its
-    /// integral over the run, and the derivatives by these parameters, in SI units; the run keeps
-    /// its trajectory ([`crate::Transient::trajectory`]). Controls and comparisons may switch.
+    /// integral over the run, and the derivatives by these parameters, in SI units. The run begins at
+    /// the network's own start and keeps its trajectory ([`crate::Transient::trajectory`]). Controls
+    /// and comparisons may switch.
     /// `observer` is called after every step of the way back and may interrupt it.
     ///
     /// # Errors

@@ -4,7 +4,7 @@ use lptn_network::Positions;
 
 use super::{Break, Run};
 use crate::times::Segment;
-use crate::trajectory::{NoTrajectory, Trajectory};
+use crate::trajectory::Trajectory;
 
 /// Positions before a switch, and the control whose dwell ends there.
 pub(super) struct Before {
@@ -67,10 +67,7 @@ impl Run<'_> {
         let (Some(switching), Some(trajectory)) = (&self.switching, &mut self.trajectory) else {
             return Ok(());
         };
-        if let [one, other, ..] = due {
-            let names = [*one, *other].map(|position| switching.name(position));
-            trajectory.fail(NoTrajectory::Together { names, time });
-        }
+        trajectory.check_alone((time, due), |position| switching.name(position));
         let positions = [&before.positions, &switching.positions];
         trajectory.turn((time, due, before.waited), positions, branch);
         Ok(())

@@ -11,10 +11,11 @@ use crate::times::Segment;
 
 impl Transient {
     /// The integrator: pieces of the run prove the times of switches, and the one-step method has
-    /// none. A trajectory of polynomials needs short steps.
+    /// none. A trajectory consists of polynomials, whatever method the network asks for.
     pub(super) fn integrator_for(&self, system: &ThermalSystem) -> IntegratorChoice {
-        let switches = self.certify && system.network().has_events() || self.trajectory;
+        let switches = self.certify && system.network().has_events();
         match self.integrator {
+            _ if self.trajectory && cfg!(feature = "cvodes") => IntegratorChoice::Cvode,
             IntegratorChoice::Auto if switches && cfg!(feature = "cvodes") => {
                 IntegratorChoice::Cvode
             }
