@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 _OVER_TIME = re.compile(r"\s*(last|max|min|mean|integral)\(([^,]*)\)\s*$")
 _MARGIN = re.compile(r"\s*margin\((.*)\)\s*$")
+_RUN = re.compile(r"^\s*(\[\s*run\s*\]|run\s*[=.])", re.MULTILINE)
 
 
 class Function:
@@ -42,6 +43,9 @@ class Function:
         margins, reports = _split(texts)
         text = _study(network, self.parameters, reports, self.over)
         source, name = network.text
+        stop, _ = times
+        if self.over == "run" and stop is not None and not _RUN.search(source):
+            text += f"[run]\nstop = {json.dumps(stop)}\n"
         try:
             netlist = _lptn.Netlist.parse(f"{source}\n{text}", name, network._set)
             self._of = _lptn.Gradient(netlist, "lptn_gradient", list(margins.values()), times)
