@@ -214,6 +214,11 @@ impl Stretch {
         self.piece(time).iter().for_each(|piece| piece.at(time, out));
     }
 
+    /// Duration in s of the step that ends at a time or contains it.
+    pub(crate) fn step(&self, time: f64) -> f64 {
+        self.piece(time).map_or(f64::INFINITY, |piece| piece.to - piece.from)
+    }
+
     /// Temperatures in K of the massless nodes that are solved for, near a time.
     pub(crate) fn branch(&self, time: f64) -> &[f64] {
         self.piece(time).map_or(&[], |piece| &piece.branch)

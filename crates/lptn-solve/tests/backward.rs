@@ -122,6 +122,53 @@ fn the_method_that_is_asked_for_does_not_matter() {
     near(found.by[1], -by_g, (1e-8, 1.0));
 }
 
+/// A light wall of 48 kJ/K next to inner walls of 7.3 MJ/K, heated half of each day for 20 days: the
+/// adjoint falls by two decades, and begins anew at every jump.
+const ROOM: &str = r#"
+[param]
+wall = "10.5 m^2"
+inner = "75.5 m^2"
+[signal]
+gains = { t = ["0 h", "6 h", "18 h", "24 h"], v = ["0 W", "1 kW", "0 W", "0 W"], interp = "previous", after_end = "repeat", period = "24 h" }
+[node]
+c_ext = { C = "47900 J/K", T0 = "22 degC" }
+c_int = { C = "7297100 J/K", T0 = "22 degC" }
+s_ext = { massless = true }
+[boundary]
+out = { T = "22 degC" }
+[convection]
+between = { from = "s_ext", to = "c_int", h = "5 W/(m^2 K)", area = "wall" }
+outside = { from = "c_ext", to = "out", h = "2.4 W/(m^2 K)", area = "wall" }
+[resistor]
+wall_in = { from = "s_ext", to = "c_ext", G = "247 W/K" }
+[source]
+ext = { into = "s_ext", P = "wall / (wall + inner) * gains" }
+int = { into = "c_int", P = "inner / (wall + inner) * gains" }
+[limit]
+hot = { of = "c_ext.T", below = "100 degC" }
+[run]
+stop = "20 d"
+"#;
+
+#[test]
+fn an_adjoint_that_falls_by_decades_keeps_its_digits() {
+    let network = network(ROOM);
+    let parameters: Vec<ParameterId> = network.parameter_ids().collect();
+    let stop = 20.0 * 86400.0;
+    let forward = sensitive_run(&network, &until(stop, 1e-8), &parameters).unwrap();
+    let row = forward.solution.times().len() - 1;
+    let limit = network.limit_ids().next().unwrap();
+    let settings = Transient { trajectory: true, ..until(stop, 1e-8) };
+    let solution = run(&network, &settings);
+    let last = (limit, Functional::Last);
+    let found = solution.margin_gradient(last, &parameters, &|_| Proceed::Continue).unwrap();
+    for (&parameter, found) in parameters.iter().zip(found.by) {
+        let expected = forward.margin_derivative(parameter, (limit, row)).unwrap();
+        println!("{found:e} {expected:e}");
+        near(found, expected, (1e-6, expected.abs()));
+    }
+}
+
 /// The node that each heater heats.
 const HEATED: [&str; 3] = ["room0", "room1", "plate"];
 

@@ -117,7 +117,8 @@ impl<'a> Way<'a> {
         Ok(())
     }
 
-    /// Integrates back over a part of a stretch.
+    /// Integrates back over a part of a stretch, by steps no longer than those of the run: a running
+    /// integral changes as fast as the temperatures do, and has no tolerance of its own.
     fn pass(&mut self, stretch: usize, (from, to): (f64, f64)) -> Result<(), BackwardError> {
         let is_zero = !self.adjoint.iter().any(|x| x.abs() > 0.0);
         if from >= to {
@@ -128,11 +129,12 @@ impl<'a> Way<'a> {
         self.restart(scale)?;
         self.integrator.set_stop(-from);
         while self.integrator.time() < -from {
+            let step = self.sought.trajectory.stretches[stretch].step(-self.integrator.time());
+            self.integrator.set_longest_step(step);
             let stepped = self.integrator.step();
             stepped.map_err(|error| self.failed(error))?;
             self.report()?;
-            let size = largest(self.integrator.state());
-            let [low, high] = SCALED;
+            let (size, [low, high]) = (largest(self.integrator.state()), SCALED);
             if size > high || size < low && size > 0.0 && !is_zero {
                 self.take()?;
                 let scale = self.scale();
