@@ -2,7 +2,7 @@
 //!
 //! The reports and the parameters are those of a sweep. A steady state has an adjoint, so that its
 //! gradient costs one more solution. So has a run, through its events: each result costs as much as
-//! five to eight runs. A network without capacities has forward sensitivities. A maximum changes as
+//! six to nine runs. A network without capacities has forward sensitivities. A maximum changes as
 //! the quantity does at its time, an integral as the integral of the derivative.
 //!
 //! A report becomes a limit of the network with the bound 0: limits have a time at which they are
