@@ -46,7 +46,7 @@ fn address(folder: &Folder, name: &str) -> String {
     format!("file://{}", folder.path().join(name).display())
 }
 
-/// What the probe finds in a page.
+/// Findings of the probe in a page.
 pub(crate) fn probed(folder: &Folder, name: &str, width: u32) -> Option<Value> {
     browse::browsed(folder, &[(name, width)], PROBE).map(|mut found| found.remove(0))
 }

@@ -28,7 +28,7 @@ impl Front {
         &self.rows
     }
 
-    /// Every so many of its rows that there are about `most`, the first and the last among them.
+    /// About `most` of its rows, evenly chosen, the first and the last among them.
     pub(super) fn some(&self, most: usize) -> Vec<&Row> {
         let stride = self.rows.len().div_ceil(most).max(1);
         let mut some: Vec<&Row> = self.rows.iter().step_by(stride).collect();

@@ -38,8 +38,8 @@ impl Integral {
     /// Over all stretches.
     pub(super) fn of(way: &mut Way<'_>) -> Result<Self, BackwardError> {
         let mut integral = Self::default();
-        let stretches = &way.sought.trajectory.stretches;
-        let length = way.sought.length();
+        let stretches = &way.asked.trajectory.stretches;
+        let length = way.asked.length();
         for (number, stretch) in stretches.iter().enumerate() {
             let (from, to) = stretch.span();
             let parts = (PARTS * (to - from) / length).ceil().max(1.0);
@@ -75,8 +75,8 @@ impl Integral {
             return Ok(());
         }
         let Some(left) = halvings.checked_sub(1) else {
-            let limit = &way.sought.margin.system.network().limits();
-            let name = limit[way.sought.margin.limit.index()].text.clone();
+            let limit = &way.asked.margin.system.network().limits();
+            let name = limit[way.asked.margin.limit.index()].text.clone();
             return Err(BackwardError::Unresolved { name });
         };
         self.add(way, stretch, ([from, middle], left))?;

@@ -43,7 +43,7 @@ struct Aim {
 }
 
 /// A result of a run to be differentiated.
-struct Sought<'a> {
+struct Asked<'a> {
     solution: &'a Solution,
     trajectory: &'a Trajectory,
     margin: Margin<'a>,
@@ -69,13 +69,13 @@ impl Solution {
         let trajectory = self.trajectory.as_deref().ok_or(NoTrajectory::Unknown)?;
         trajectory.check()?;
         let margin = Margin { system: &self.system, limit };
-        let sought = Sought { solution: self, trajectory, margin, parameters, observer };
+        let asked = Asked { solution: self, trajectory, margin, parameters, observer };
         match functional {
-            Functional::Mean | Functional::Integral => sought.integrated(functional),
-            Functional::Min => sought.of_moment(sought.worst()?),
+            Functional::Mean | Functional::Integral => asked.integrated(functional),
+            Functional::Min => asked.of_moment(asked.worst()?),
             Functional::Last => {
                 let stretch = trajectory.stretches.len() - 1;
-                sought.of_moment(Aim { stretch, time: trajectory.stretches[stretch].span().1 })
+                asked.of_moment(Aim { stretch, time: trajectory.stretches[stretch].span().1 })
             }
             _ => {
                 let name = self.network().limits()[limit.index()].text.clone();
@@ -85,7 +85,7 @@ impl Solution {
     }
 }
 
-impl Sought<'_> {
+impl Asked<'_> {
     /// The stretches that contain a time.
     fn around(&self, time: f64) -> impl Iterator<Item = usize> + '_ {
         let room = SAME * self.length();

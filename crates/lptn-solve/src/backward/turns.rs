@@ -17,7 +17,7 @@ const PARTS: f64 = 8.0;
 impl Way<'_> {
     /// Goes back through the switch at the end of a stretch, if there is one.
     pub(super) fn turn(&mut self, stretch: usize) -> Result<(), BackwardError> {
-        let Some(turn) = self.sought.trajectory.stretches[stretch].end.as_ref() else {
+        let Some(turn) = self.asked.trajectory.stretches[stretch].end.as_ref() else {
             return Ok(());
         };
         let time = turn.time;
@@ -46,7 +46,7 @@ impl Way<'_> {
         if self.aim.is_some() {
             return Ok(None);
         }
-        let Some(next) = self.sought.trajectory.stretches.get(stretch + 1) else {
+        let Some(next) = self.asked.trajectory.stretches.get(stretch + 1) else {
             return Ok(None);
         };
         Ok(Some(self.read(stretch + 1, next.span().0)?.1))
@@ -62,11 +62,11 @@ impl Way<'_> {
         if let Some(began) = began {
             self.waits[began] += moves;
         }
-        let system = self.sought.margin.system;
+        let system = self.asked.margin.system;
         let network = system.network();
         let Some(id) = network.control_ids().nth(control) else { return Ok(()) };
         let Some(dwell) = network.thermostat(id).map(|of| &of.min_dwell) else { return Ok(()) };
-        for (found, &parameter) in self.found.iter_mut().zip(self.sought.parameters) {
+        for (found, &parameter) in self.found.iter_mut().zip(self.asked.parameters) {
             if !network.depends_on(dwell, &[parameter]) {
                 continue;
             }
@@ -88,7 +88,7 @@ impl Way<'_> {
         (turn, position): (&Turn, usize),
         (rates, moves): (&[f64], f64),
     ) -> Result<(), BackwardError> {
-        let network = self.sought.margin.system.network();
+        let network = self.asked.margin.system.network();
         let Some(kind) = EventKind::switching(network).nth(position) else { return Ok(()) };
         let name = kind.name(network);
         let speed = self.along(stretch, turn.time, rates, Read::Excess(kind))?;
@@ -96,7 +96,7 @@ impl Way<'_> {
         let weights = self.moment().excess_by_nodes(kind, &name)?;
         let mut instant = self.moment().instant(&weights)?;
         if let Some(positions) = &point.positions {
-            for (by, &parameter) in instant.parameters.iter_mut().zip(self.sought.parameters) {
+            for (by, &parameter) in instant.parameters.iter_mut().zip(self.asked.parameters) {
                 *by += self.integrator.system().moment.excess_by((kind, positions), parameter)?;
             }
         }
@@ -118,13 +118,13 @@ impl Way<'_> {
         rates: &[f64],
         read: Read,
     ) -> Result<f64, BackwardError> {
-        let (from, to) = self.sought.trajectory.stretches[stretch].span();
+        let (from, to) = self.asked.trajectory.stretches[stretch].span();
         let fastest = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
         let longest = (to - from) / PARTS;
         let by = if fastest > 0.0 { longest.min(KELVIN / fastest) } else { longest };
         let (point, _) = self.read(stretch, time)?;
         let state = self.moment().state().to_vec();
-        let margin = self.sought.margin;
+        let margin = self.asked.margin;
         let moment = self.moment();
         let found = slope(by, |change| {
             if change > 0.0 {

@@ -5,7 +5,7 @@ use lptn_integrate::{IntegrateError, Integrator, Options};
 use super::error::BackwardError;
 use super::moment::Moment;
 use super::system::Adjoint;
-use super::{Aim, Sought};
+use super::{Aim, Asked};
 use crate::margin::Point;
 use crate::settings::{Proceed, Progress};
 use crate::stepper::cvodes;
@@ -26,7 +26,7 @@ const FIRST: f64 = 1e-3;
 
 /// The adjoint on its way.
 pub(super) struct Way<'a> {
-    pub(super) sought: &'a Sought<'a>,
+    pub(super) asked: &'a Asked<'a>,
     pub(super) integrator: Box<dyn Integrator<Adjoint<'a>> + 'a>,
     /// The result of one moment; `None` for an integrated one.
     pub(super) aim: Option<Aim>,
@@ -42,20 +42,20 @@ pub(super) struct Way<'a> {
 
 impl<'a> Way<'a> {
     /// From the moment of a result or, without one, from the end of the run for an integral.
-    pub(super) fn new(sought: &'a Sought<'a>, aim: Option<Aim>) -> Result<Self, BackwardError> {
-        let (system, stretches) = (sought.margin.system, &sought.trajectory.stretches);
-        let moment = Moment::new(system, sought.parameters)?;
+    pub(super) fn new(asked: &'a Asked<'a>, aim: Option<Aim>) -> Result<Self, BackwardError> {
+        let (system, stretches) = (asked.margin.system, &asked.trajectory.stretches);
+        let moment = Moment::new(system, asked.parameters)?;
         let stretch = aim.map_or(stretches.len() - 1, |aim| aim.stretch);
         let from = aim.map_or(stretches[stretch].span().1, |aim| aim.time);
-        let integrated = aim.is_none().then_some(sought.margin);
-        let parameters = sought.parameters.len();
+        let integrated = aim.is_none().then_some(asked.margin);
+        let parameters = asked.parameters.len();
         let adjoint = Adjoint::new(moment, &stretches[stretch], (integrated, parameters));
         let zero = vec![0.0; system.states().len()];
-        let tolerance = (SHARE * sought.solution.tolerance).clamp(FINEST, COARSEST);
+        let tolerance = (SHARE * asked.solution.tolerance).clamp(FINEST, COARSEST);
         let options = Options { tolerance, ..Options::default() };
         let integrator = cvodes(adjoint, (-from, &zero), &options)?;
         Ok(Self {
-            sought,
+            asked,
             integrator,
             aim,
             adjoint: zero,
@@ -76,15 +76,15 @@ impl<'a> Way<'a> {
         stretch: usize,
         time: f64,
     ) -> Result<(Point, f64), BackwardError> {
-        let sought = self.sought;
-        let point = sought.point(self.moment(), (stretch, time))?;
-        let margin = sought.margin.at(&point)?;
+        let asked = self.asked;
+        let point = asked.point(self.moment(), (stretch, time))?;
+        let margin = asked.margin.at(&point)?;
         Ok((point, margin))
     }
 
     /// Goes back to the start; the derivatives by the parameters.
     pub(super) fn back(mut self) -> Result<Vec<f64>, BackwardError> {
-        let stretches = &self.sought.trajectory.stretches;
+        let stretches = &self.asked.trajectory.stretches;
         let last = self.aim.map_or(stretches.len() - 1, |aim| aim.stretch);
         for stretch in (0..=last).rev() {
             let (from, to) = stretches[stretch].span();
@@ -103,7 +103,7 @@ impl<'a> Way<'a> {
 
     /// Adds the derivatives of the margin at its moment.
     fn arrive(&mut self, stretch: usize, time: f64) -> Result<(), BackwardError> {
-        let (margin, parameters) = (self.sought.margin, self.sought.parameters);
+        let (margin, parameters) = (self.asked.margin, self.asked.parameters);
         let (point, _) = self.read(stretch, time)?;
         let weights = margin.by_nodes(&point, &margin.nodes())?;
         let instant = self.moment().instant(&weights)?;
@@ -124,12 +124,12 @@ impl<'a> Way<'a> {
         if from >= to {
             return Ok(());
         }
-        self.integrator.system_mut().enter(&self.sought.trajectory.stretches[stretch]);
+        self.integrator.system_mut().enter(&self.asked.trajectory.stretches[stretch]);
         let scale = if is_zero { self.first_scale(to)? } else { self.scale() };
         self.restart(scale)?;
         self.integrator.set_stop(-from);
         while self.integrator.time() < -from {
-            let step = self.sought.trajectory.stretches[stretch].step(-self.integrator.time());
+            let step = self.asked.trajectory.stretches[stretch].step(-self.integrator.time());
             self.integrator.set_longest_step(step);
             let stepped = self.integrator.step();
             stepped.map_err(|error| self.failed(error))?;
@@ -146,9 +146,9 @@ impl<'a> Way<'a> {
 
     /// Reports the time that is reached on the way back; it may be interrupted.
     fn report(&self) -> Result<(), BackwardError> {
-        let [start, stop] = [0.0, self.sought.length()];
-        let gone = self.integrator.time() + self.sought.end();
-        match (self.sought.observer)(Progress { start, time: gone, stop }) {
+        let [start, stop] = [0.0, self.asked.length()];
+        let gone = self.integrator.time() + self.asked.end();
+        match (self.asked.observer)(Progress { start, time: gone, stop }) {
             Proceed::Continue => Ok(()),
             Proceed::Interrupt => Err(BackwardError::Interrupted),
         }
@@ -165,7 +165,7 @@ impl<'a> Way<'a> {
 
     /// The same after a small part of the run, if it is zero now.
     fn first_scale(&mut self, time: f64) -> Result<f64, BackwardError> {
-        let length = self.sought.length();
+        let length = self.asked.length();
         let adjoint = self.integrator.system_mut();
         adjoint.rescale(1.0);
         let rate = adjoint.rate(time)?;
