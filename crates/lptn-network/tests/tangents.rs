@@ -146,6 +146,50 @@ fn variables_that_follow_others_are_separate_in_every_order() {
     }
 }
 
+/// A chain of 40 nodes with a conductance each, of which some are shared, summed or scaled together:
+/// variables that change nothing in common are followed in one place, and each column is that of
+/// its variable alone. The heat of a conductance changes by the difference of its ends.
+#[test]
+fn variables_with_nothing_in_common_keep_their_columns() {
+    let mut b = NetworkBuilder::new();
+    let names: Vec<String> = (0..40).map(|k| format!("G{k}")).collect();
+    let all: Vec<(&str, &str)> = names.iter().map(|name| (name.as_str(), "2 W/K")).collect();
+    let mut ids = parameters(&mut b, &all);
+    ids.extend(parameters(&mut b, &[("scale", "1.5"), ("C", "7 J/K"), ("T_air", "15 degC")]));
+    let sum = time(&b, "G3 + G4");
+    b.parameter("sum", sum);
+    let t_air = time(&b, "T_air");
+    let air = b.boundary("air", t_air);
+    let mut before: lptn_network::End = air.into();
+    for k in 0..40 {
+        let content = if k % 8 == 0 { time(&b, "C") } else { quantity("5 J/K") };
+        let node = b.node(&format!("n{k}"), content, Temperature(300.0));
+        let law = match k {
+            7 => time(&b, "sum"),
+            _ if k % 10 == 9 => time(&b, &format!("scale * G{k}")),
+            _ => time(&b, &format!("G{k}")),
+        };
+        b.resistor(&format!("r{k}"), before, node, Path::conductance(law));
+        before = node.into();
+    }
+    let network = b.build().unwrap();
+    let nodes: Vec<f64> = (0..40).map(|k| 300.0 + f64::from(k * k % 17)).collect();
+    agrees(&network, &ids, 0.0, &nodes);
+    let temperatures: Vec<f64> = nodes.iter().copied().chain([288.15]).collect();
+    let columns = |ids: &[ParameterId]| {
+        let mut heats = vec![f64::NAN; ids.len() * temperatures.len()];
+        let mut tangents = network.tangents(ids).unwrap();
+        tangents.heat(&network, &network.evaluation(), &temperatures, &mut heats).unwrap();
+        heats
+    };
+    let together = columns(&ids);
+    for (id, column) in ids.iter().zip(together.chunks(temperatures.len())) {
+        assert_eq!(columns(&[*id]), column, "{}", network.parameters()[id.index()].name);
+    }
+    assert_eq!(together[2 * temperatures.len() + 2], nodes[1] - nodes[2]);
+    assert_eq!(together[4 * temperatures.len() + 7], nodes[6] - nodes[7]);
+}
+
 /// More parameters than one pass takes, one of them an expression of another.
 #[test]
 fn every_law_by_its_parameters() {

@@ -90,6 +90,32 @@ fn a_maximum_inside_of_a_run_has_its_closed_form() {
     near(&found.slopes[0], &[rise / POWER, by_g]);
 }
 
+/// With P (1 - t / s), tau = C/G and a = P/G (1 + tau/s): T = T_air + a (1 - exp(-t/tau)) - P t / (s G),
+/// largest at tau ln(a s G / (P tau)). A peak is flat, so that the run knows its moment only to the
+/// root of the tolerance.
+#[test]
+fn a_smooth_peak_has_its_closed_form() {
+    let falling = "[source]\nheat = { into = \"block\", P = \"P * (1 - t / 800 [s])\" }\n";
+    let (p, s) = (POWER, 800.0);
+    let of = |g: f64, t: f64| {
+        let tau = CAPACITY / g;
+        p / g * ((1.0 + tau / s) * (1.0 - (-t / tau).exp()) - t / s)
+    };
+    let tau = CAPACITY / CONDUCTANCE;
+    let peak = tau * ((1.0 + tau / s) * s / tau).ln();
+    let h = 1e-3;
+    let side = |k: f64| of(CONDUCTANCE + k * h, peak) - of(CONDUCTANCE - k * h, peak);
+    let by_g = (45.0 * side(1.0) - 9.0 * side(2.0) + side(3.0)) / (60.0 * h);
+    let top = of(CONDUCTANCE, peak);
+    for tolerance in ["1e-8 K", "1e-9 K", "1e-10 K", "1e-11 K"] {
+        let text = text("run", "top = \"max(block.T)\"", falling).replace("1e-9 K", tolerance);
+        let found = gradients(&text, true).unwrap();
+        near(&found.values, &[298.15 + top, 35.0 - top]);
+        near(&found.slopes[0], &[top / p, by_g]);
+        near(&found.slopes[1], &[-top / p, -by_g]);
+    }
+}
+
 /// A jump at a fixed time moves with no parameter: the integral of the power is 300 s P.
 #[test]
 fn an_integral_over_a_fixed_jump_is_exact() {

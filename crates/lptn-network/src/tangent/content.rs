@@ -7,6 +7,7 @@
 use lptn_units::Scalar;
 
 use super::influence::{Influence, melting};
+use super::reads::each;
 use super::refusal::NoTangents;
 use super::{Pass, Tangents};
 use crate::enthalpy::Enthalpy;
@@ -17,12 +18,12 @@ use crate::network::Network;
 use crate::slot;
 use crate::value::Value;
 
-/// The derivatives of one node, for every pass.
+/// The derivatives of one node in a pass.
 #[derive(Clone, Debug)]
 pub(super) struct Content {
     node: NodeId,
     /// `dT0` in K.
-    initial: Vec<[f64; PASS]>,
+    initial: [f64; PASS],
     change: Change,
 }
 
@@ -30,40 +31,40 @@ pub(super) struct Content {
 #[derive(Clone, Debug)]
 enum Change {
     /// `dC` of a constant one in J/K.
-    Constant(Vec<[f64; PASS]>),
+    Constant([f64; PASS]),
     /// `dln(size)` of one that is scaled as a whole.
-    Scaled(Vec<[f64; PASS]>),
+    Scaled([f64; PASS]),
     /// The parts of one whose parts change separately: integrated.
     Parts(Vec<Value>),
 }
 
-/// The nodes with capacity whose heat content changes.
-pub(super) fn all_of(
-    network: &Network,
-    influence: &Influence<'_>,
-    passes: &mut [Pass],
-) -> Result<Vec<Content>, NoTangents> {
-    let mut capacitors: Vec<Vec<&Value>> = vec![Vec::new(); network.nodes().len()];
-    for part in network.capacitors() {
-        capacitors[part.node.index()].push(&part.capacity);
-    }
-    let may_melt = network.materials().iter().any(|material| material.melting.is_some());
-    let mut contents = Vec::new();
-    for (id, parts) in network.node_ids().zip(capacitors) {
-        let node = &network.nodes()[id.index()];
-        let values: Vec<&Value> = node.capacity.iter().chain(parts).collect();
-        let starts =
-            node.initial.as_ref().filter(|_| !node.massless).is_some_and(|t| influence.value(t));
-        let changes =
-            values.iter().any(|value| influence.value(value)) || may_melt && influence.melting(id);
-        if starts || changes {
-            if starts && node.molten > 0.0 {
-                return Err(NoTangents::Melting { node: id });
-            }
-            contents.push(Content::new(network, id, &values, (influence, passes))?);
+/// The values that the heat content of each node follows from.
+pub(super) struct Bodies<'a> {
+    network: &'a Network,
+    influence: &'a Influence<'a>,
+    capacitors: Vec<Vec<&'a Value>>,
+}
+
+impl<'a> Bodies<'a> {
+    pub(super) fn new(network: &'a Network, influence: &'a Influence<'a>) -> Self {
+        let mut capacitors: Vec<Vec<&Value>> = vec![Vec::new(); network.nodes().len()];
+        for part in network.capacitors() {
+            capacitors[part.node.index()].push(&part.capacity);
         }
+        Self { network, influence, capacitors }
     }
-    Ok(contents)
+
+    /// The change of the heat content of a node in a pass.
+    pub(super) fn content(&self, id: NodeId, pass: &mut Pass) -> Result<Content, NoTangents> {
+        let node = &self.network.nodes()[id.index()];
+        let values: Vec<&Value> =
+            node.capacity.iter().chain(self.capacitors[id.index()].iter().copied()).collect();
+        let start = node.initial.as_ref().filter(|_| !node.massless);
+        if node.molten > 0.0 && start.is_some_and(|start| self.influence.value(start)) {
+            return Err(NoTangents::Melting { node: id });
+        }
+        Content::new(self.network, id, &values, (self.influence, pass))
+    }
 }
 
 impl Content {
@@ -71,16 +72,16 @@ impl Content {
         network: &Network,
         node: NodeId,
         values: &[&Value],
-        (influence, passes): (&Influence<'_>, &mut [Pass]),
+        (influence, pass): (&Influence<'_>, &mut Pass),
     ) -> Result<Self, NoTangents> {
         let none = Value::Constant(0.0);
         let start = network.nodes()[node.index()].initial.as_ref().unwrap_or(&none);
-        let initial = slopes(&[start], passes);
+        let initial = sum(&[start], pass).derivatives;
         let melts = melts(network, node);
         let change = match (network.enthalpy(node).is_some(), size_of(values, influence)) {
-            (false, _) => Change::Constant(slopes(values, passes)),
+            (false, _) => Change::Constant(sum(values, pass).derivatives),
             (true, Some(size)) if !melts || latent_scales(network, node, (&size, influence)) => {
-                Change::Scaled(logarithmic(&size, passes))
+                Change::Scaled(logarithmic(&size, pass))
             }
             (true, _) if !melts => {
                 Change::Parts(values.iter().map(|&value| value.clone()).collect())
@@ -94,33 +95,27 @@ impl Content {
         self.node
     }
 
-    /// True if it may change with a variable of a pass.
-    pub(super) fn changes_in(&self, pass: usize) -> bool {
-        let any = |slopes: &[[f64; PASS]]| slopes[pass].iter().any(|slope| slope.abs() > 0.0);
-        let change = match &self.change {
-            Change::Constant(slopes) | Change::Scaled(slopes) => any(slopes),
-            Change::Parts(_) => true,
-        };
-        change || any(&self.initial)
-    }
-
-    /// `dH` in J for one pass, at a temperature in K.
-    fn at(&self, network: &Network, pass: (usize, &mut Pass), temperature: f64) -> [f64; PASS] {
-        let (index, pass) = pass;
+    /// `dH` in J, at a temperature in K. Changes the slot of the node's own temperature.
+    fn at(
+        &self,
+        network: &Network,
+        (slots, stack): (&mut [Slope], &mut Vec<Slope>),
+        temperature: f64,
+    ) -> [f64; PASS] {
         let start = network.initial(self.node);
         let first = network.capacity(self.node);
         let mut change = match &self.change {
-            Change::Constant(slopes) => slopes[index].map(|slope| slope * (temperature - start)),
+            Change::Constant(slopes) => slopes.map(|slope| slope * (temperature - start)),
             Change::Scaled(slopes) => {
                 let heat = network.enthalpy(self.node).and_then(|curve| curve.heat(temperature));
-                slopes[index].map(|slope| slope * heat.unwrap_or(f64::NAN))
+                slopes.map(|slope| slope * heat.unwrap_or(f64::NAN))
             }
             Change::Parts(values) => match network.enthalpy(self.node) {
-                Some(curve) => integral(values, curve, (start, temperature), pass),
+                Some(curve) => integral(values, curve, (start, temperature), (slots, stack)),
                 None => [f64::NAN; PASS],
             },
         };
-        change.iter_mut().zip(&self.initial[index]).for_each(|(dh, dt)| *dh -= first * dt);
+        change.iter_mut().zip(&self.initial).for_each(|(dh, dt)| *dh -= first * dt);
         change
     }
 }
@@ -163,24 +158,20 @@ fn latent_scales(
 }
 
 fn sum(values: &[&Value], pass: &mut Pass) -> Slope {
+    sum_on(values, (&pass.slots, &mut pass.stack))
+}
+
+fn sum_on(values: &[&Value], (slots, stack): (&[Slope], &mut Vec<Slope>)) -> Slope {
     let zero = Slope::constant(0.0);
-    values.iter().fold(zero, |sum, value| {
-        sum + value.on(&pass.slots, &mut pass.stack).unwrap_or(Slope::constant(f64::NAN))
-    })
+    values
+        .iter()
+        .fold(zero, |sum, value| sum + value.on(slots, stack).unwrap_or(Slope::constant(f64::NAN)))
 }
 
-fn slopes(values: &[&Value], passes: &mut [Pass]) -> Vec<[f64; PASS]> {
-    passes.iter_mut().map(|pass| sum(values, pass).derivatives).collect()
-}
-
-fn logarithmic(factors: &[Value], passes: &mut [Pass]) -> Vec<[f64; PASS]> {
-    let one = |pass: &mut Pass| {
-        let product = factors
-            .iter()
-            .fold(Slope::constant(1.0), |product, factor| product * sum(&[factor], pass));
-        product.derivatives.map(|slope| slope / product.value())
-    };
-    passes.iter_mut().map(one).collect()
+fn logarithmic(factors: &[Value], pass: &mut Pass) -> [f64; PASS] {
+    let one = Slope::constant(1.0);
+    let product = factors.iter().fold(one, |product, factor| product * sum(&[factor], pass));
+    product.derivatives.map(|slope| slope / product.value())
 }
 
 /// The integral of the derivatives of the sum of `values` over a stretch of temperature, panel by
@@ -189,7 +180,7 @@ fn integral(
     values: &[Value],
     curve: &Enthalpy,
     (from, to): (f64, f64),
-    pass: &mut Pass,
+    (slots, stack): (&mut [Slope], &mut Vec<Slope>),
 ) -> [f64; PASS] {
     let values: Vec<&Value> = values.iter().collect();
     let mut stops = curve.stops(from.min(to), from.max(to));
@@ -199,8 +190,8 @@ fn integral(
     for pair in stops.windows(2) {
         let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
         for (x, weight) in GAUSS {
-            pass.slots[slot::OWN as usize] = Slope::constant(middle + half * x);
-            let slope = sum(&values, pass);
+            slots[slot::OWN as usize] = Slope::constant(middle + half * x);
+            let slope = sum_on(&values, (slots, stack));
             let weight = half * weight * (to - from).signum();
             total.iter_mut().zip(slope.derivatives).for_each(|(sum, d)| *sum += weight * d);
         }
@@ -215,11 +206,9 @@ impl Tangents {
     pub fn capacities(&self, network: &Network, out: &mut [f64]) {
         let nodes = network.nodes().len();
         out.fill(0.0);
-        for (index, (first, count)) in self.spans().enumerate() {
-            for Content { node, change, .. } in &self.contents {
-                let Change::Constant(slopes) = change else { continue };
-                (0..count).for_each(|k| out[(first + k) * nodes + node.index()] = slopes[index][k]);
-            }
+        for (content, lanes) in self.passes.iter().flat_map(|pass| &pass.reads.contents) {
+            let Content { node, change: Change::Constant(slopes), .. } = content else { continue };
+            each(lanes, slopes).for_each(|(k, slope)| out[k * nodes + node.index()] = slope);
         }
     }
 
@@ -229,11 +218,9 @@ impl Tangents {
     pub fn contents(&mut self, network: &Network, temperatures: &[f64], out: &mut [f64]) {
         let nodes = network.nodes().len();
         out.fill(0.0);
-        for (index, (first, count)) in self.spans().enumerate() {
-            self.each_content(index, network, temperatures, &mut |node, change| {
-                (0..count).for_each(|k| out[(first + k) * nodes + node] = change[k]);
-            });
-        }
+        self.each_content(network, temperatures, &mut |node, variable, change| {
+            out[variable * nodes + node] = change;
+        });
     }
 
     /// Adds the change of the sum of those heat contents, each times a weight for its node, per SI
@@ -244,29 +231,25 @@ impl Tangents {
         weights: &[f64],
         out: &mut [f64],
     ) {
-        for (index, (first, count)) in self.spans().enumerate() {
-            let sums = &mut out[first..first + count];
-            self.each_content(index, network, temperatures, &mut |node, change| {
-                sums.iter_mut().zip(change).for_each(|(sum, slope)| *sum += weights[node] * slope);
-            });
-        }
+        self.each_content(network, temperatures, &mut |node, variable, change| {
+            out[variable] += weights[node] * change;
+        });
     }
 
-    /// Calls `each` with a node and the change of its heat content, for all that change with a
-    /// variable of a pass.
+    /// Calls `take` with a node, the position of a variable, and the change of the node's heat
+    /// content with it.
     fn each_content(
         &mut self,
-        index: usize,
         network: &Network,
         temperatures: &[f64],
-        each: &mut dyn FnMut(usize, &[f64; PASS]),
+        take: &mut dyn FnMut(usize, usize, f64),
     ) {
-        let Self { passes, contents, .. } = self;
-        let pass = &mut passes[index];
-        for position in 0..pass.reads.contents.len() {
-            let content = &contents[pass.reads.contents[position]];
-            let node = content.node.index();
-            each(node, &content.at(network, (index, pass), temperatures[node]));
+        for Pass { slots, stack, reads, .. } in &mut self.passes {
+            for (content, lanes) in &reads.contents {
+                let node = content.node.index();
+                let change = content.at(network, (slots, stack), temperatures[node]);
+                each(lanes, &change).for_each(|(variable, slope)| take(node, variable, slope));
+            }
         }
     }
 }

@@ -2,8 +2,9 @@
 
 use lptn_units::Scalar;
 
-use super::{Pass, Tangents, Variable};
-use crate::evaluation::{Evaluation, PASS, Slope};
+use super::reads::each;
+use super::{Pass, Tangents};
+use crate::evaluation::{Evaluation, Slope};
 use crate::id::{Field, Item};
 use crate::input_error::InputError;
 use crate::law::At;
@@ -30,16 +31,10 @@ impl Tangents {
     ) -> Result<(), InputError> {
         out.fill(0.0);
         let vertices = temperatures.len();
-        for (index, (first, count)) in self.spans().enumerate() {
-            let block = &mut out[first * vertices..(first + count) * vertices];
-            let each = &mut |vertex: usize, slopes: &[f64; PASS]| {
-                for (block, slope) in block.chunks_mut(vertices).zip(slopes) {
-                    block[vertex] += slope;
-                }
-            };
-            self.each_heat(index, network, (scope, temperatures), each)?;
-        }
-        Ok(())
+        let add = &mut |vertex: usize, variable: usize, slope: f64| {
+            out[variable * vertices + vertex] += slope;
+        };
+        self.each_heat(network, (scope, temperatures), add)
     }
 
     /// Adds the change of the sum of those heats, each times a weight for its vertex, per SI unit of
@@ -55,42 +50,40 @@ impl Tangents {
         weights: &[f64],
         out: &mut [f64],
     ) -> Result<(), InputError> {
-        for (index, (first, count)) in self.spans().enumerate() {
-            let sums = &mut out[first..first + count];
-            let each = &mut |vertex: usize, slopes: &[f64; PASS]| {
-                sums.iter_mut()
-                    .zip(slopes)
-                    .for_each(|(sum, slope)| *sum += weights[vertex] * slope);
-            };
-            self.each_heat(index, network, (scope, temperatures), each)?;
+        let add = &mut |vertex: usize, variable: usize, slope: f64| {
+            out[variable] += weights[vertex] * slope;
+        };
+        self.each_heat(network, (scope, temperatures), add)
+    }
+
+    /// Calls `add` with a vertex, the position of a variable and the change of a heat that the vertex
+    /// receives, for every heat that changes with the variable.
+    fn each_heat(
+        &mut self,
+        network: &Network,
+        at: (&Evaluation, &[f64]),
+        add: &mut Add<'_>,
+    ) -> Result<(), InputError> {
+        for pass in &mut self.passes {
+            pass.read_inputs(network, at)?;
+            pass.each_conductor(network, at, add)?;
+            pass.each_source(network, at, add)?;
         }
         Ok(())
     }
+}
 
-    /// Calls `each` with a vertex and the change of a heat that it receives, for every heat that
-    /// changes with a variable of a pass.
-    fn each_heat(
-        &mut self,
-        index: usize,
-        network: &Network,
-        (scope, temperatures): (&Evaluation, &[f64]),
-        each: &mut dyn FnMut(usize, &[f64; PASS]),
-    ) -> Result<(), InputError> {
-        self.read_inputs(index, network, scope, temperatures)?;
-        let pass = &mut self.passes[index];
-        pass.each_conductor(network, (scope, temperatures), each)?;
-        pass.each_source(network, (scope, temperatures), each)
-    }
+/// Takes the position of a vertex, that of a variable, and the change of a heat.
+type Add<'a> = dyn FnMut(usize, usize, f64) + 'a;
 
+impl Pass {
     /// Takes the time and the signals of `scope`, and the temperatures of the boundaries.
     fn read_inputs(
         &mut self,
-        index: usize,
         network: &Network,
-        scope: &Evaluation,
-        temperatures: &[f64],
+        (scope, temperatures): (&Evaluation, &[f64]),
     ) -> Result<(), InputError> {
-        let Pass { slots, stack, boundaries, reads } = &mut self.passes[index];
+        let Self { slots, stack, boundaries, signals, reads } = self;
         let layout = scope.layout();
         let mut copy = |slot: u32| slots[slot as usize] = Slope::constant(scope.slot(slot));
         [slot::TIME, slot::SEGMENT].into_iter().for_each(&mut copy);
@@ -100,11 +93,9 @@ impl Tangents {
         }
         network.control_ids().for_each(|id| copy(layout.control(id)));
         network.switch_ids().for_each(|id| copy(layout.switch(id)));
-        for (k, variable) in self.variables.iter().skip(index * PASS).take(PASS).enumerate() {
-            if let Variable::Signal(id) = variable {
-                let now = layout.signal(*id);
-                slots[now as usize] = Slope::variable(scope.slot(now), k);
-            }
+        for &(id, lane) in signals.iter() {
+            let now = layout.signal(id);
+            slots[now as usize] = Slope::variable(scope.slot(now), lane);
         }
         for &id in &reads.signals {
             if let Course::Expression(value) = &network.signals()[id.index()].course {
@@ -122,17 +113,16 @@ impl Tangents {
         }
         Ok(())
     }
-}
 
-impl Pass {
     fn each_conductor(
         &mut self,
         network: &Network,
         (scope, temperatures): (&Evaluation, &[f64]),
-        each: &mut dyn FnMut(usize, &[f64; PASS]),
+        add: &mut Add<'_>,
     ) -> Result<(), InputError> {
-        let Self { slots, stack, boundaries, reads } = self;
-        for &id in &reads.conductors {
+        let Self { slots, stack, boundaries, reads, .. } = self;
+        for (id, lanes) in &reads.conductors {
+            let id = *id;
             let conductor = &network.conductors()[id.index()];
             let ends = [conductor.from, conductor.to].map(|end| network.vertex(end));
             let dependence = network.parts.dependence(id);
@@ -144,7 +134,7 @@ impl Pass {
             let received =
                 received.map_err(|failed| network.failed(Item::Conductor(id), failed, scope))?;
             for (vertex, heat) in ends.into_iter().zip(received) {
-                each(vertex, &heat.derivatives);
+                each(lanes, &heat.derivatives).for_each(|(k, slope)| add(vertex, k, slope));
             }
         }
         Ok(())
@@ -154,10 +144,11 @@ impl Pass {
         &mut self,
         network: &Network,
         (scope, temperatures): (&Evaluation, &[f64]),
-        each: &mut dyn FnMut(usize, &[f64; PASS]),
+        add: &mut Add<'_>,
     ) -> Result<(), InputError> {
-        let Self { slots, stack, boundaries, reads } = self;
-        for &id in &reads.sources {
+        let Self { slots, stack, boundaries, reads, .. } = self;
+        for (id, lanes) in &reads.sources {
+            let id = *id;
             let source = &network.sources()[id.index()];
             let dependence = &network.parts.source_dependence[id.index()];
             let dual = |vertex: usize| of_vertex(vertex, network, boundaries, temperatures);
@@ -165,7 +156,8 @@ impl Pass {
             let power = At::new((slots, stack)).heat(&source.law);
             let power = power.map_err(|failed| network.failed(Item::Source(id), failed, scope))?;
             for &(node, share) in &source.into {
-                each(node.index(), &power.derivatives.map(|d| share * d));
+                let slopes = each(lanes, &power.derivatives);
+                slopes.for_each(|(k, slope)| add(node.index(), k, share * slope));
             }
         }
         Ok(())

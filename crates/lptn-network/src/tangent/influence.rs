@@ -3,7 +3,7 @@
 use lptn_units::Program;
 
 use super::Variable;
-use crate::id::{BoundaryId, ConductorId, ControlId, Item, NodeId, SignalId, SourceId};
+use crate::id::{BoundaryId, ControlId, Item, NodeId};
 use crate::network::Network;
 use crate::parts::layout::Holds;
 use crate::parts::signal::Course;
@@ -59,40 +59,8 @@ impl<'a> Influence<'a> {
         program.slots().iter().any(|&slot| self.slots[slot as usize])
     }
 
-    pub(super) fn signal(&self, id: SignalId) -> bool {
-        self.slots[self.network.signal_slot(id) as usize]
-    }
-
     pub(super) fn boundary(&self, id: BoundaryId) -> bool {
         self.value(&self.network.boundaries()[id.index()].temperature)
-    }
-
-    pub(super) fn source(&self, id: SourceId) -> bool {
-        self.network.sources()[id.index()].law.values().iter().any(|value| self.value(value))
-    }
-
-    /// True if the heat of a conductor changes: through its values, or through a boundary at one
-    /// end.
-    pub(super) fn conductor(&self, id: ConductorId) -> bool {
-        let conductor = &self.network.conductors()[id.index()];
-        let ends = [conductor.from, conductor.to].into_iter().any(|end| match end {
-            crate::End::Boundary(id) => self.boundary(id),
-            crate::End::Node(_) => false,
-        });
-        let fluid = conductor.law.fluid().map(|id| &self.network.fluids()[id.index()]);
-        let properties =
-            fluid.into_iter().flat_map(|fluid| fluid.density.iter().chain([&fluid.cp]));
-        ends || !conductor.law.is_number() && conductor.law.values().iter().any(|v| self.value(v))
-            || properties.into_iter().any(|v| self.value(v))
-    }
-
-    /// True if the melting of a node changes, in heat or in temperature.
-    pub(super) fn melting(&self, id: NodeId) -> bool {
-        melting(self.network, id).any(|(lump, melting)| {
-            let density = self.network.materials()[lump.material.index()].density.as_ref();
-            let values = [&melting.solidus, &melting.liquidus, &melting.heat, lump.size.field().1];
-            values.into_iter().chain(density).any(|value| self.value(value))
-        })
     }
 
     /// The first input with a comparison that changes its truth at a time which depends on one of

@@ -11,10 +11,13 @@
 mod content;
 mod heat;
 mod influence;
+mod reads;
 mod refusal;
 
+use std::collections::BTreeMap;
+
 use crate::End;
-use crate::evaluation::{PASS, Slope};
+use crate::evaluation::Slope;
 use crate::id::{
     BoundaryId, ConductorId, ControlId, NodeId, ParameterId, SignalId, SourceId, SwitchId,
 };
@@ -22,6 +25,7 @@ use crate::network::Network;
 use crate::slot;
 use content::Content;
 use influence::Influence;
+use reads::{Lanes, Place, Read};
 
 pub use refusal::NoTangents;
 
@@ -42,44 +46,30 @@ pub enum Variable {
 pub struct Tangents {
     variables: Vec<Variable>,
     passes: Vec<Pass>,
-    contents: Vec<Content>,
 }
 
-/// Up to [`PASS`] variables that are followed together.
+/// Variables that are followed together: those with one place in the dual numbers change nothing in
+/// common.
 #[derive(Clone, Debug)]
 struct Pass {
     slots: Vec<Slope>,
     stack: Vec<Slope>,
     /// Temperatures of all boundaries in K.
     boundaries: Vec<Slope>,
+    /// Signals that are variables, with their places.
+    signals: Vec<(SignalId, usize)>,
     reads: Reads,
 }
 
 /// All that changes with a variable of one pass.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Reads {
-    conductors: Vec<ConductorId>,
-    sources: Vec<SourceId>,
+    conductors: Vec<(ConductorId, Lanes)>,
+    sources: Vec<(SourceId, Lanes)>,
     boundaries: Vec<BoundaryId>,
     /// Signals that are expressions of the parameters.
     signals: Vec<SignalId>,
-    /// Positions of heat contents.
-    contents: Vec<usize>,
-}
-
-impl Reads {
-    fn of(network: &Network, own: &[Variable], all: &[Variable]) -> Self {
-        let influence = Influence::new(network, own);
-        let follows =
-            |id: &SignalId| influence.signal(*id) && !all.contains(&Variable::Signal(*id));
-        Self {
-            conductors: network.conductor_ids().filter(|id| influence.conductor(*id)).collect(),
-            sources: network.source_ids().filter(|id| influence.source(*id)).collect(),
-            boundaries: network.boundary_ids().filter(|id| influence.boundary(*id)).collect(),
-            signals: network.signal_ids().filter(follows).collect(),
-            contents: Vec::new(),
-        }
-    }
+    contents: Vec<(Content, Lanes)>,
 }
 
 impl Network {
@@ -159,22 +149,21 @@ impl Network {
         refusal::check_fluids(self, influence)?;
         refusal::check_faces(self, influence)?;
         refusal::check_patches(self, influence)?;
-        let chunks = variables.chunks(PASS);
         let mut given = self.numbers.given.clone();
         for variable in variables {
             if let Variable::Parameter(id) = variable {
                 given[id.index()] = true;
             }
         }
-        let all = (variables, &given[..]);
-        let mut passes: Vec<Pass> = chunks.map(|chunk| Pass::new(self, chunk, all)).collect();
-        refusal::check_rings(self, influence, &mut passes)?;
-        let contents = content::all_of(self, influence, &mut passes)?;
-        for (index, pass) in passes.iter_mut().enumerate() {
-            let of = contents.iter().enumerate().filter(|(_, content)| content.changes_in(index));
-            pass.reads.contents = of.map(|(position, _)| position).collect();
+        let mut passes = Vec::new();
+        let mut bodies = content::Bodies::new(self, influence);
+        for (places, reads) in reads::passes(self, variables, &given) {
+            let mut pass = Pass::new(self, &places, &given);
+            refusal::check_rings(self, influence, &mut pass)?;
+            pass.take(reads, &mut bodies)?;
+            passes.push(pass);
         }
-        Ok(Tangents { variables: variables.to_vec(), passes, contents })
+        Ok(Tangents { variables: variables.to_vec(), passes })
     }
 }
 
@@ -187,34 +176,34 @@ impl Tangents {
     /// The first node with a capacity over temperature whose heat content changes with one of the
     /// variables.
     pub fn enthalpy_that_changes(&self, network: &Network) -> Option<NodeId> {
-        let mut nodes = self.contents.iter().map(Content::node);
-        nodes.find(|id| network.enthalpy(*id).is_some())
-    }
-
-    /// For each pass the number of its first variable and how many it follows.
-    fn spans(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
-        let count = self.variables.len();
-        (0..count).step_by(PASS).map(move |first| (first, PASS.min(count - first)))
+        let contents = self.passes.iter().flat_map(|pass| &pass.reads.contents);
+        let nodes = contents.map(|(content, _)| content.node());
+        nodes.filter(|id| network.enthalpy(*id).is_some()).min()
     }
 }
 
 impl Pass {
     /// The slots with the parameters in them, the expressions among these evaluated in their order.
     /// Variables of other passes are constant. `given` are the parameters that follow from no other.
-    fn new(network: &Network, own: &[Variable], (all, given): (&[Variable], &[bool])) -> Self {
+    fn new(network: &Network, places: &[Place], given: &[bool]) -> Self {
         let layout = &network.parts.layout;
         let mut slots = vec![Slope::constant(f64::NAN); layout.len()];
         slots[slot::TIME as usize] = Slope::constant(0.0);
         slots[slot::SEGMENT as usize] = Slope::constant(0.0);
         let mut stack = Vec::new();
+        let (mut lanes, mut signals) = (vec![None; network.parameters().len()], Vec::new());
+        for &(variable, lane) in places {
+            match variable {
+                Variable::Parameter(id) => lanes[id.index()] = Some(lane),
+                Variable::Signal(id) => signals.push((id, lane)),
+            }
+        }
         for id in network.parameter_ids() {
             let number = network.parameter_value(id);
-            let variable = Variable::Parameter(id);
-            let given = given[id.index()];
             let value = &network.parameters()[id.index()].value;
-            let dual = match own.iter().position(|own| *own == variable) {
-                Some(index) => Slope::variable(number, index),
-                None if given => Slope::constant(number),
+            let dual = match lanes[id.index()] {
+                Some(lane) => Slope::variable(number, lane),
+                None if given[id.index()] => Slope::constant(number),
                 None => value.on(&slots, &mut stack).unwrap_or(Slope::constant(number)),
             };
             slots[layout.parameter(id) as usize] = dual;
@@ -223,7 +212,30 @@ impl Pass {
             slots,
             stack,
             boundaries: vec![Slope::constant(f64::NAN); network.boundaries().len()],
-            reads: Reads::of(network, own, all),
+            signals,
+            reads: Reads::default(),
         }
+    }
+
+    /// Keeps the heats and contents that change with the variables.
+    fn take(
+        &mut self,
+        reads: BTreeMap<Read, Lanes>,
+        bodies: &mut content::Bodies<'_>,
+    ) -> Result<(), NoTangents> {
+        for (read, lanes) in reads {
+            match read {
+                Read::Conductor(id) => self.reads.conductors.push((id, lanes)),
+                Read::Source(id) => self.reads.sources.push((id, lanes)),
+                Read::Boundary(id) => self.reads.boundaries.push(id),
+                Read::Signal(id) => self.reads.signals.push(id),
+                Read::Content(id) => {
+                    let content = bodies.content(id, self)?;
+                    self.reads.contents.push((content, lanes));
+                }
+                Read::Grid(_) => {}
+            }
+        }
+        Ok(())
     }
 }

@@ -166,22 +166,21 @@ pub(super) fn check_patches(
 pub(super) fn check_rings(
     network: &Network,
     influence: &Influence<'_>,
-    passes: &mut [Pass],
+    pass: &mut Pass,
 ) -> Result<(), NoTangents> {
     for (grid, known) in network.grid_ids().zip(network.grids()) {
         let Shape::Cylinder { r_in: Some(r_in), r_out, .. } = &known.shape else { continue };
         if ![r_in, r_out].into_iter().any(|radius| influence.value(radius)) {
             continue;
         }
-        let mut is_kept = |pass: &mut Pass| {
-            let radii = [r_in, r_out].map(|radius| radius.on(&pass.slots, &mut pass.stack));
-            let [Ok(inner), Ok(outer)] = radii else { return false };
-            inner.derivatives.iter().zip(outer.derivatives).all(|(inner_slope, outer_slope)| {
-                let terms = [inner_slope * outer.value, inner.value * outer_slope];
-                (terms[0] - terms[1]).abs() <= ROUNDED * (terms[0].abs() + terms[1].abs())
-            })
-        };
-        if !passes.iter_mut().all(&mut is_kept) {
+        let radii = [r_in, r_out].map(|radius| radius.on(&pass.slots, &mut pass.stack));
+        let [Ok(inner), Ok(outer)] = radii else { return Err(NoTangents::Rings { grid }) };
+        let slopes = inner.derivatives.iter().zip(outer.derivatives);
+        let is_kept = slopes.into_iter().all(|(inner_slope, outer_slope)| {
+            let terms = [inner_slope * outer.value, inner.value * outer_slope];
+            (terms[0] - terms[1]).abs() <= ROUNDED * (terms[0].abs() + terms[1].abs())
+        });
+        if !is_kept {
             return Err(NoTangents::Rings { grid });
         }
     }

@@ -14,6 +14,7 @@
 mod error;
 mod integral;
 mod moment;
+mod rate;
 mod system;
 mod transposed;
 mod turns;
@@ -142,7 +143,10 @@ impl Asked<'_> {
                 best = Some((off, Aim { stretch, time }));
             }
         }
-        best.map(|(_, aim)| aim).ok_or_else(|| NoTrajectory::Unknown.into())
+        let Some((_, aim)) = best else { return Err(NoTrajectory::Unknown.into()) };
+        let (from, to) = self.trajectory.stretches[aim.stretch].span();
+        let is_inside = from < aim.time && aim.time < to;
+        if is_inside { self.level(&mut moment, aim) } else { Ok(aim) }
     }
 
     fn of_moment(&self, aim: Aim) -> Result<MarginSlopes, BackwardError> {

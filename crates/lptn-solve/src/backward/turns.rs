@@ -1,18 +1,12 @@
 //! The adjoint at a switch.
 
 use super::error::BackwardError;
+use super::rate::Read;
 use super::way::{Way, add};
 use crate::events::EventKind;
-use crate::margin::Point;
 use crate::sensitive_run::step;
 use crate::stencil::slope;
 use crate::trajectory::{Cause, Turn};
-
-/// The change of the fastest temperature in K over a step of time for a derivative by it.
-const KELVIN: f64 = 0.01;
-
-/// The parts of a stretch in such a step.
-const PARTS: f64 = 8.0;
 
 impl Way<'_> {
     /// Goes back through the switch at the end of a stretch, if there is one.
@@ -25,10 +19,9 @@ impl Way<'_> {
         let arrives = self.aim.is_some_and(|aim| aim.stretch == stretch);
         let later = self.later(stretch)?;
         let (point, margin) = self.read(stretch, time)?;
-        let rates = self.moment().rates()?;
         let mut moves = self.waits[stretch];
         if arrives {
-            moves += self.along(stretch, time, &rates, Read::Margin)?;
+            moves += self.rate((stretch, time), Read::Margin)?;
         } else {
             let jumps = self.moment().jumps(turn, point.at)?;
             moves -= jumps.iter().zip(&self.adjoint).map(|(jump, x)| jump * x).sum::<f64>();
@@ -37,7 +30,7 @@ impl Way<'_> {
         match turn.cause {
             Cause::Fixed => Ok(()),
             Cause::Dwell { control, began } => self.wait((control, began), moves),
-            Cause::Crossing(position) => self.cross(stretch, (turn, position), (&rates, moves)),
+            Cause::Crossing(position) => self.cross(stretch, (turn, position), moves),
         }
     }
 
@@ -86,12 +79,12 @@ impl Way<'_> {
         &mut self,
         stretch: usize,
         (turn, position): (&Turn, usize),
-        (rates, moves): (&[f64], f64),
+        moves: f64,
     ) -> Result<(), BackwardError> {
         let network = self.asked.margin.system.network();
         let Some(kind) = EventKind::switching(network).nth(position) else { return Ok(()) };
         let name = kind.name(network);
-        let speed = self.along(stretch, turn.time, rates, Read::Excess(kind))?;
+        let speed = self.rate((stretch, turn.time), Read::Excess(kind))?;
         let (point, _) = self.read(stretch, turn.time)?;
         let weights = self.moment().excess_by_nodes(kind, &name)?;
         let mut instant = self.moment().instant(&weights)?;
@@ -108,47 +101,4 @@ impl Way<'_> {
         add(&mut self.found, (&instant.parameters, factor));
         Ok(())
     }
-
-    /// The rate in 1/s of the margin or of the excess of a position along a stretch, just before a
-    /// time, with these rates of the states in K/s.
-    fn along(
-        &mut self,
-        stretch: usize,
-        time: f64,
-        rates: &[f64],
-        read: Read,
-    ) -> Result<f64, BackwardError> {
-        let (from, to) = self.asked.trajectory.stretches[stretch].span();
-        let fastest = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
-        let longest = (to - from) / PARTS;
-        let by = if fastest > 0.0 { longest.min(KELVIN / fastest) } else { longest };
-        let (point, _) = self.read(stretch, time)?;
-        let state = self.moment().state().to_vec();
-        let margin = self.asked.margin;
-        let moment = self.moment();
-        let found = slope(by, |change| {
-            if change > 0.0 {
-                return Err(BackwardError::Unresolved { name: String::new() });
-            }
-            let moved: Vec<f64> =
-                state.iter().zip(rates).map(|(y, rate)| y + rate * change).collect();
-            let at = (time + change, point.at.1);
-            moment.go(at, &moved)?;
-            match read {
-                Read::Excess(kind) => moment.excess(kind),
-                Read::Margin => {
-                    let nodes = moment.nodes().to_vec();
-                    Ok(margin.at(&Point { at, nodes, ..point.clone() })?)
-                }
-            }
-        })?;
-        Ok(found.unwrap_or(f64::NAN))
-    }
-}
-
-/// A number along a run.
-#[derive(Clone, Copy)]
-enum Read {
-    Margin,
-    Excess(EventKind),
 }

@@ -4,6 +4,7 @@ use lptn_integrate::{IntegrateError, Integrator, Options};
 
 use super::error::BackwardError;
 use super::moment::Moment;
+use super::rate::Read;
 use super::system::Adjoint;
 use super::{Aim, Asked};
 use crate::margin::Point;
@@ -80,6 +81,12 @@ impl<'a> Way<'a> {
         let point = asked.point(self.moment(), (stretch, time))?;
         let margin = asked.margin.at(&point)?;
         Ok((point, margin))
+    }
+
+    /// The rate in 1/s of a number along a stretch, just before a time in s.
+    pub(super) fn rate(&mut self, at: (usize, f64), read: Read) -> Result<f64, BackwardError> {
+        let asked = self.asked;
+        asked.rate(self.moment(), at, read)
     }
 
     /// Goes back to the start; the derivatives by the parameters.
