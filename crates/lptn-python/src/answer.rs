@@ -1,11 +1,13 @@
 //! An answer, as Python reads it.
 
 use std::borrow::Cow;
+use std::sync::OnceLock;
 
 use lptn::{Format, Look, Picture, Rows, Table, problems_as_json, write};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
+use crate::sheet::Sheet;
 use crate::subject::Found;
 use crate::trouble::Trouble;
 
@@ -16,11 +18,13 @@ const WIDTH: usize = 80;
 #[pyclass(frozen, module = "lptn._lptn")]
 pub(crate) struct Answer {
     found: Found,
+    /// The columns of rows that are words.
+    sheet: OnceLock<Option<Sheet>>,
 }
 
 impl Answer {
     pub(crate) fn of(found: Found) -> Self {
-        Self { found }
+        Self { found, sheet: OnceLock::new() }
     }
 
     fn written(&self, format: Format) -> String {
@@ -30,7 +34,16 @@ impl Answer {
         String::from_utf8(bytes).unwrap_or_default()
     }
 
-    /// The columns of numbers; none if the rows are words.
+    /// The columns of rows that are words; `None` if the rows are a table.
+    fn sheet(&self) -> Option<&Sheet> {
+        let read = || match self.found.rows() {
+            Rows::Words(rows) => Some(Sheet::of(&rows)),
+            Rows::Table(_) => None,
+        };
+        self.sheet.get_or_init(read).as_ref()
+    }
+
+    /// The columns of numbers, and labels, of rows that are a table.
     fn table(&self) -> Option<Cow<'_, Table>> {
         match self.found.rows() {
             Rows::Table(table) => Some(table),
@@ -72,31 +85,34 @@ impl Answer {
         (!doubts.is_empty()).then(|| problems_as_json(self.found.files(), &doubts).to_string())
     }
 
-    /// Names and units of the columns of numbers; `None` if the rows are words.
-    fn columns(&self) -> Option<Vec<(String, String)>> {
-        let table = self.table()?;
-        Some(table.columns().iter().map(|c| (c.name.clone(), c.unit.clone())).collect())
+    /// Names of the columns, with the unit of those of numbers.
+    fn columns(&self) -> Vec<(String, Option<String>)> {
+        if let Some(sheet) = self.sheet() {
+            return sheet.columns();
+        }
+        let Some(table) = self.table() else { return Vec::new() };
+        let labels = table.labels().iter().map(|label| (label.name.clone(), None));
+        let columns = table.columns().iter();
+        labels.chain(columns.map(|of| (of.name.clone(), Some(of.unit.clone())))).collect()
     }
 
-    /// The columns of words next to them: name and cells.
-    fn labels(&self) -> Vec<(String, Vec<String>)> {
-        let Some(table) = self.table() else { return Vec::new() };
-        table.labels().iter().map(|label| (label.name.clone(), label.cells.clone())).collect()
+    /// The cells of a column of words.
+    fn words(&self, name: &str) -> Option<Vec<String>> {
+        if let Some(sheet) = self.sheet() {
+            return sheet.words(name).map(<[_]>::to_vec);
+        }
+        let table = self.table()?;
+        table.labels().iter().find(|label| label.name == name).map(|label| label.cells.clone())
     }
 
     /// The numbers of a column, each 8 bytes.
     fn numbers<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Option<Bound<'py, PyBytes>>> {
+        if let Some(sheet) = self.sheet() {
+            return sheet.numbers(name).map(|values| bytes(py, values)).transpose();
+        }
         let Some(table) = self.table() else { return Ok(None) };
-        let Some(column) = table.columns().iter().find(|column| column.name == name) else {
-            return Ok(None);
-        };
-        let bytes = PyBytes::new_with(py, 8 * column.values.len(), |bytes| {
-            for (place, value) in bytes.chunks_exact_mut(8).zip(&column.values) {
-                place.copy_from_slice(&value.to_ne_bytes());
-            }
-            Ok(())
-        })?;
-        Ok(Some(bytes))
+        let column = table.columns().iter().find(|column| column.name == name);
+        column.map(|column| bytes(py, &column.values)).transpose()
     }
 
     /// The figures as one SVG; `None` if there is nothing to draw.
@@ -109,4 +125,13 @@ impl Answer {
         let drawn = drawn.map_err(|error| Trouble::fault(&error.to_string()))?;
         Ok(Some(String::from_utf8_lossy(&drawn).into_owned()))
     }
+}
+
+fn bytes<'py>(py: Python<'py>, values: &[f64]) -> PyResult<Bound<'py, PyBytes>> {
+    PyBytes::new_with(py, 8 * values.len(), |bytes| {
+        for (place, value) in bytes.chunks_exact_mut(8).zip(values) {
+            place.copy_from_slice(&value.to_ne_bytes());
+        }
+        Ok(())
+    })
 }

@@ -14,6 +14,7 @@ mod netlist;
 mod program;
 mod questions;
 mod sections;
+mod sheet;
 mod simulation;
 mod subject;
 mod trouble;

@@ -78,9 +78,11 @@ impl Words {
         value: &Bound<'_, PyAny>,
         is_parameter: &dyn Fn(&str) -> bool,
     ) -> Result<(), Trouble> {
-        let near = suggest(name, verb.options.iter().map(|option| option.name));
-        match near {
-            _ if verb.sets && (is_parameter(name) || near.is_none()) => self.assign(name, value),
+        if verb.sets && is_parameter(name) {
+            return self.assign(name, value);
+        }
+        match suggest(name, verb.options.iter().map(|option| option.name)) {
+            None if verb.sets => self.assign(name, value),
             Some(near) => Err(Trouble::of_type(format!(
                 "`{}` has no option `{name}`: did you mean `{near}`?",
                 verb.name

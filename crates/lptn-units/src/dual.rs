@@ -168,6 +168,10 @@ impl<const N: usize> Scalar for Dual<N> {
 
     #[inline]
     fn chain(self, value: f64, slope: f64) -> Self {
+        if slope.is_finite() {
+            // the sum with 0 is never -0
+            return Self { value, derivatives: self.derivatives.map(|d| slope * d + 0.0) };
+        }
         Self { value, derivatives: self.derivatives.map(|d| times(slope, d)) }
     }
 
@@ -175,8 +179,12 @@ impl<const N: usize> Scalar for Dual<N> {
     fn chain2(self, other: Self, value: f64, slopes: [f64; 2]) -> Self {
         let [mine, theirs] = slopes;
         let mut derivatives = self.derivatives;
-        for (d, o) in derivatives.iter_mut().zip(other.derivatives) {
-            *d = times(mine, *d) + times(theirs, o);
+        let both = derivatives.iter_mut().zip(other.derivatives);
+        // without a case for each derivative, which would cost a third more
+        if mine.is_finite() && theirs.is_finite() {
+            both.for_each(|(d, o)| *d = mine * *d + theirs * o + 0.0);
+        } else {
+            both.for_each(|(d, o)| *d = times(mine, *d) + times(theirs, o));
         }
         Self { value, derivatives }
     }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-use lptn_units::{Dual, Expression, Program, Scope, Symbol, Type};
+use lptn_units::{Dual, Expression, Program, Scalar, Scope, Symbol, Type};
 
 struct Names;
 
@@ -106,6 +106,23 @@ fn derivatives_at_kinks_are_finite_and_one_sided() {
             assert!((exact - hand).abs() < 1e-12, "{text} at {a}, {b}: {found:?}");
         }
     }
+}
+
+/// The product rule, to the bit of a sign: a derivative of 0 is +0 times any factor, and 0 where a
+/// factor is infinite. Printed, -0 would look like a small negative number.
+#[test]
+fn a_derivative_of_zero_stays_zero() {
+    let x = |value: f64| Dual::<4>::variable(value, 1);
+    let bits = |dual: Dual<4>| dual.derivatives.map(f64::to_bits);
+    let only = |slope: f64| [0.0, slope, 0.0, 0.0].map(f64::to_bits);
+    for factor in [-3.0, 3.0, 1e300, -f64::MIN_POSITIVE] {
+        assert_eq!(bits(x(-2.0) * Dual::constant(factor)), only(factor));
+        assert_eq!(bits(x(-2.0).chain(1.0, factor)), only(factor));
+        assert_eq!(bits(x(2.0) / Dual::constant(factor)), only(1.0 / factor));
+    }
+    let infinite = x(2.0) * Dual::constant(f64::INFINITY);
+    assert_eq!(bits(infinite), only(f64::INFINITY));
+    assert_eq!(bits(x(2.0).chain(0.0, f64::NEG_INFINITY)), only(f64::NEG_INFINITY));
 }
 
 #[test]

@@ -42,6 +42,9 @@ pub(super) fn passes(
     variables: &[Variable],
     given: &[bool],
 ) -> Vec<(Vec<Place>, BTreeMap<Read, Lanes>)> {
+    if variables.is_empty() {
+        return Vec::new();
+    }
     let readers = Readers::new(network);
     let mut occupied: Vec<BTreeSet<Read>> = Vec::new();
     let mut passes: Vec<(Vec<Place>, BTreeMap<Read, Lanes>)> = Vec::new();

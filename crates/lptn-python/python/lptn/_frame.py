@@ -58,7 +58,7 @@ def _columns(network: Network, frame: Any) -> dict[str, list[float]]:
                 known = ", ".join(units)
                 raise TypeError(f"{name} is not a parameter of {network!r}: they are {known}")
             name = f"{name} [{units[name]}]" if units[name] else name
-        columns[name] = [float(value) for value in frame[head]]
+        columns[name] = list(map(float, frame[head]))
     if len({len(values) for values in columns.values()}) != 1:
         raise TypeError("the columns of a frame have one length, at least one column")
     return columns
@@ -66,10 +66,10 @@ def _columns(network: Network, frame: Any) -> dict[str, list[float]]:
 
 def _write(file: str, columns: dict[str, list[float]]) -> None:
     with open(file, "w", encoding="utf-8", newline="") as out:
-        writer = csv.writer(out)
-        writer.writerow(columns)
+        csv.writer(out).writerow(columns)
         # repr gives all digits
-        writer.writerows(map(repr, row) for row in zip(*columns.values()))
+        rows = zip(*(map(repr, values) for values in columns.values()))
+        out.writelines(f"{','.join(row)}\n" for row in rows)
 
 
 def _temperatures(network: Network, over: str) -> dict[str, str]:

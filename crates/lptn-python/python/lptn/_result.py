@@ -26,39 +26,19 @@ class Table:
     def __init__(self, answer: _lptn.Answer | Kept, scalar: bool) -> None:
         self._answer = answer
         self._scalar = scalar
-        self._words: dict[str, list[str]] = {}
-        self.units: dict[str, str] = {}
+        columns = dict(answer.columns())
+        self._names = list(columns)
+        self.units: dict[str, str] = {name: u for name, u in columns.items() if u is not None}
         """The unit of each column of numbers."""
-        columns = answer.columns()
-        if columns is None:
-            self._read(answer.csv())
-        else:
-            self._words = dict(answer.labels())
-            self.units = dict(columns)
         self._numbers: dict[str, Column] = {}
-
-    def _read(self, text: str) -> None:
-        """Rows of words: columns whose cells are all numbers become numbers."""
-        import csv
-        import io
-
-        rows = list(csv.reader(io.StringIO(text)))
-        for place, head in enumerate(rows[0] if rows else []):
-            name, unit = _split(head)
-            cells = [row[place] for row in rows[1:]]
-            if unit and all(_is_number(cell) for cell in cells):
-                self.units[name] = unit
-                self._words[name] = cells
-            else:
-                self._words[head] = cells
 
     @property
     def names(self) -> list[str]:
         """The names of all columns."""
-        return list(dict.fromkeys([*self._words, *self.units]))
+        return list(self._names)
 
     def __contains__(self, name: object) -> bool:
-        return name in self._words or name in self.units
+        return name in self._names
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.names)
@@ -71,9 +51,10 @@ class Table:
 
     def __getitem__(self, name: str) -> Any:
         if name not in self.units:
-            if name in self._words:
-                return list(self._words[name])
-            raise KeyError(f"{name}: the columns are {', '.join(self.names[:20])}")
+            words = self._answer.words(name) if name in self._names else None
+            if words is None:
+                raise KeyError(f"{name}: the columns are {', '.join(self.names[:20])}")
+            return list(words)
         if name not in self._numbers:
             self._numbers[name] = self._column(name)
         return self._numbers[name]
@@ -82,9 +63,6 @@ class Table:
         from . import _column
 
         unit = self.units[name]
-        if name in self._words:
-            values = [float(cell) if cell else float("nan") for cell in self._words[name]]
-            return _column.column(name, unit, values)
         index = None
         if name != "time" and "time" in self.units:
             index = self["time"]
@@ -146,28 +124,15 @@ def _cells(values: Any) -> Iterator[str]:
         yield from (f"{value:.6g}" for value in values.reshape(-1).tolist())
 
 
-def _split(head: str) -> tuple[str, str]:
-    name, bracket, unit = head.rpartition(" [")
-    return (name, unit[:-1]) if bracket and unit.endswith("]") else (head, "")
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        float(cell or "nan")
-    except ValueError:
-        return False
-    return True
-
-
 class Kept:
     """An answer that was pickled: its texts and numbers."""
 
     def __init__(self, answer: _lptn.Answer | Kept) -> None:
         self._texts = (answer.json(), answer.text(), answer.csv(), answer.svg(), answer.doubts())
         self._verdict = (answer.exit(), answer.reasons())
-        self._columns, self._labels = answer.columns(), answer.labels()
-        names = [name for name, _ in self._columns or []]
-        self._numbers = {name: answer.numbers(name) for name in names}
+        self._columns = answer.columns()
+        names = [name for name, _ in self._columns]
+        self._cells = {name: (answer.numbers(name), answer.words(name)) for name in names}
 
     @classmethod
     def of(cls, answer: _lptn.Answer | Kept) -> Kept:
@@ -195,14 +160,14 @@ class Kept:
     def reasons(self) -> list[str]:
         return self._verdict[1]
 
-    def columns(self) -> list[tuple[str, str]] | None:
+    def columns(self) -> list[tuple[str, str | None]]:
         return self._columns
 
-    def labels(self) -> list[tuple[str, list[str]]]:
-        return self._labels
-
     def numbers(self, name: str) -> bytes | None:
-        return self._numbers.get(name)
+        return self._cells.get(name, (None, None))[0]
+
+    def words(self, name: str) -> list[str] | None:
+        return self._cells.get(name, (None, None))[1]
 
 
 def _again(kept: Kept, question: str, scalar: bool) -> Result:
