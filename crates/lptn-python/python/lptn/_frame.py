@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import _lptn
+from ._messages import Error
 from ._progress import shown
 from ._questions import answered
 from ._result import Result
@@ -44,6 +45,31 @@ def sweep(
         with shown(words) as words:
             answer = netlist.ask("sweep", [], {**words, "name": "frame"})
         return answered(answer, "sweep", words, 3)
+
+
+def explain(network: Network, error: Error, case: Any) -> None:
+    """Says why the first candidate failed: it is solved alone."""
+    result = error.result
+    if result is None or "failed" not in result or not error.code:
+        return
+    first = next(place for place, code in enumerate(result["failed"]) if code)
+    study, units = result.data["sweep"], result.table.units
+    values = {
+        name: (float(result[name][first]), units[name])
+        for name in network.parameters
+        if name in units
+    }
+    question = "run" if study["over"] == "run" else "steady"
+    words = {"periodic": True} if study["over"] == "periodic" else {}
+    try:
+        network._netlist.ask(question, [], {**words, "case": case, "set": values})
+    except Error as reason:
+        if reason.code != error.code:
+            return
+        problem = error.errors[0]
+        problem.message = problem.message.removesuffix(problem.code) + reason.message
+        problem.help = reason.help
+        error.refresh()
 
 
 def _columns(network: Network, frame: Any) -> dict[str, list[float]]:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _lptn
+from ._frame import explain as explain_sweep
 from ._frame import sweep as frame_sweep
 from ._made import Tables, of_text
 from ._made import keys as made_keys
@@ -190,11 +191,15 @@ class Network(Questions):
         its unit too: `"G_out [W/K]"`. A number is in the unit of the parameter in the netlist. `over`
         is "steady", "run" or "periodic"; without `report` the temperatures of the nodes are reported.
         """
-        if name is None or isinstance(name, (str, os.PathLike)):
-            if over is not None or report is not None:
-                raise TypeError("`over` and `report` belong to a frame: a study has its own")
-            return super().sweep(name, **words)
-        return frame_sweep(self, name, over or "steady", report, words)
+        try:
+            if name is None or isinstance(name, (str, os.PathLike)):
+                if over is not None or report is not None:
+                    raise TypeError("`over` and `report` belong to a frame: a study has its own")
+                return super().sweep(name, **words)
+            return frame_sweep(self, name, over or "steady", report, words)
+        except Error as error:
+            explain_sweep(self, error, words.get("case"))
+            raise
 
     def value_and_grad(
         self,

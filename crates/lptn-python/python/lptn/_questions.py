@@ -35,8 +35,14 @@ def answered(
 
 
 def _none(result: Result) -> Problem:
-    message = "; ".join(result.verdict) or "the answer is not whole"
-    return Problem({"code": "", "severity": "error", "message": message})
+    """The problem of an answer that does not say its errors: of a sweep without a candidate."""
+    codes = result.table["failed"] if "failed" in result else []
+    message, code = "; ".join(result.verdict) or f"{result.question} has no whole answer", ""
+    if any(codes):
+        count, first = sum(map(bool, codes)), next(k for k, code in enumerate(codes) if code)
+        case, code = int(result["case"][first]), codes[first]
+        message = f"{count} of {len(codes)} candidates failed; candidate {case}: {code}"
+    return Problem({"code": code, "severity": "error", "message": message})
 
 
 def paths(netlists: tuple[Any, ...]) -> list[str]:
