@@ -14,6 +14,7 @@ from ._made import keys as made_keys
 from ._messages import Error, Problem, problems
 from ._questions import Questions, answered, paths
 from ._result import Result
+from ._values import values
 
 if TYPE_CHECKING:
     from ._gradient import Function
@@ -58,7 +59,8 @@ class Network(Questions):
     @classmethod
     def from_toml(cls, text: str, /, name: str = "netlist.toml", **parameters: Any) -> Network:
         """The network of a text, to which entries can be added."""
-        return cls.__new__(cls)._of_tables(of_text(text, name, parameters))
+        own = values(parameters, lambda: _lptn.Netlist.parse(text, name, {}))
+        return cls.__new__(cls)._of_tables(of_text(text, name, own))
 
     @property
     def _netlist(self) -> _lptn.Netlist:
@@ -242,14 +244,17 @@ def load(file: str | os.PathLike[str], /, **parameters: Any) -> Network:
 
     Raises `lptn.Error` with all problems of the netlist.
     """
-    name = os.fspath(file)
-    return Network._of(_lptn.Netlist.read(name, parameters), ("load", name, parameters))
+    name = os.fsdecode(file)
+    own = values(parameters, lambda: _lptn.Netlist.read(name, {}))
+    return Network._of(_lptn.Netlist.read(name, own), ("load", name, own))
 
 
 def parse(text: str, /, name: str = "netlist.toml", **parameters: Any) -> Network:
     """Reads a netlist from a text; files that it names are relative to the place of `name`."""
-    netlist = _lptn.Netlist.parse(text, name, parameters)
-    return Network._of(netlist, ("parse", text, name, parameters))
+    if not isinstance(text, str):
+        raise TypeError(f"a netlist is a text, not {type(text).__name__}: lptn.load reads a file")
+    own = values(parameters, lambda: _lptn.Netlist.parse(text, name, {}))
+    return Network._of(_lptn.Netlist.parse(text, name, own), ("parse", text, name, own))
 
 
 def _again(how: str, text: str, *rest: Any) -> Network:
@@ -304,7 +309,7 @@ class Simulation:
 
     def set(self, **inputs: Any) -> None:
         """Fixes parameters and signals from now on: `sim.set(P_7000=(220, "W"))`."""
-        for name, value in inputs.items():
+        for name, value in values(inputs, lambda: self.network._netlist).items():
             self._of.set(name, value)
 
     def release(self, *names: str) -> None:

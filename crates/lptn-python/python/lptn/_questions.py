@@ -10,6 +10,7 @@ from . import _lptn
 from ._messages import Error, Problem, warn
 from ._progress import shown
 from ._result import Explain, Result
+from ._values import given as given_values
 
 
 def answered(
@@ -73,6 +74,7 @@ def _method(name: str, first: str | None, several: bool) -> Any:
             words[first] = given[0]
         with shown(words) if "progress" in words else nullcontext(words) as words:
             try:
+                words = given_values(words, lambda: self._netlist, name == "compare")
                 answer = self._netlist.ask(name, others, words)
             except Error as error:
                 self._explain(error)
