@@ -122,6 +122,14 @@ class Data(unittest.TestCase):
         np.testing.assert_array_equal(kept["block.T"], self.hot)
         self.assertEqual(kept["block.T"].unit, "degC")
 
+    def test_tables_and_functions_are_pickled(self):
+        table = pickle.loads(pickle.dumps(self.run.table))
+        self.assertEqual((table.names, table.units), (self.run.table.names, self.run.table.units))
+        np.testing.assert_array_equal(table["block.T"], self.hot)
+        # T = 25 + P / G, G = 2 W/K
+        function = pickle.loads(pickle.dumps(self.net.value_and_grad("block.T", by="P")))
+        np.testing.assert_allclose(np.hstack(function(60.0)), [55, 0.5], rtol=1e-9)
+
     def test_progress(self):
         told = []
         self.net.run(progress=lambda *reached: told.append(reached))

@@ -1,11 +1,17 @@
 """Messages say the reason in the words of Python."""
 
+import pathlib
+import sys
+import tempfile
+import threading
 import unittest
 
 import numpy as np
 
 import lptn
+from lptn._messages import in_python
 from test_lptn import BODY, GEARBOX
+from test_made import block
 
 
 class Sweeps(unittest.TestCase):
@@ -62,8 +68,17 @@ class Arguments(unittest.TestCase):
 
     def test_kinds_of_arguments(self):
         self.refused(TypeError, lambda: self.net.run(set="x"), "`set` takes a dictionary")
+        self.refused(TypeError, lambda: self.net.run(options="x"), "`options` takes a dict")
         self.refused(TypeError, lambda: lptn.parse(b"format = 1"), "a text, not bytes")
         self.assertEqual(lptn.load(str(GEARBOX).encode()).nodes, lptn.load(GEARBOX).nodes)
+
+    def test_a_folder_is_not_a_netlist(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "Cargo.toml").write_text("[package]\n", encoding="utf-8")
+            error = self.refused(lptn.Error, lambda: lptn.load(folder), "directory")
+            self.assertIsNone(error.help)
+            pathlib.Path(folder, "body.toml").write_text(BODY, encoding="utf-8")
+            self.refused(lptn.Error, lambda: lptn.load(folder), "body.toml")
 
     def test_gradients(self):
         ask = self.net.value_and_grad
@@ -73,6 +88,50 @@ class Arguments(unittest.TestCase):
         self.refused(ValueError, lambda: ask("block.T", by="P", over="runn"), "'runn'", "steady")
         for words in [{"stop": "1 s"}, {"tolerance": "1 K"}]:
             self.refused(TypeError, lambda: ask("block.T", by="P", **words), "those of a run")
+
+    def test_messages_have_the_words_of_python(self):
+        for text, expected in [
+            ('write `--set "T_amb=absolute(300 [K])"`, or so', 'write `T_amb="absolute(300 [K])"`, or so'),
+            ("`--stop` must be a time", "`stop` must be a time"),
+            ('write `--temperature-unit "K"`', 'write `temperature_unit="K"`'),
+            ("write for example --keep steel,housing", 'write for example keep="steel,housing"'),
+            ("more --samples, smaller ones", "more samples, smaller ones"),
+            ("`lptn impedance a.toml --port steel`", "`lptn impedance a.toml --port steel`"),
+            ("run without --certify, or --slice z=1", "run without certify, or --slice z=1"),
+        ]:
+            self.assertEqual(in_python(text), expected)
+        error = self.refused(lptn.Error, lambda: self.net.run(stop="2"), "`stop` must be a time")
+        self.assertNotIn("--", str(error))
+
+    def test_networks_in_code(self):
+        net = block()
+        self.refused(TypeError, lambda: net.node(3, C="1 J/K"), "names are texts, not int")
+        net.path("resistr", "wrong", "block", "air", R="1 K/W")
+        line = sys._getframe().f_lineno - 1
+        self.refused(lptn.Error, net.steady, f"made at test_refusals.py:{line}", "`[resistor]`")
+
+    def test_simulations(self):
+        sim = self.net.simulation()
+        for wrong in ["x", '{"a": 1}', 3, None]:
+            self.refused(ValueError, lambda: sim.restore(wrong), "that `save` of a simulation gave")
+        failed = []
+
+        def steps():
+            try:
+                for _ in range(50):
+                    sim.step("1 s")
+                    sim["block.T"]
+            except BaseException as error:
+                failed.append(error)
+
+        threads = [threading.Thread(target=steps) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual((failed, sim.time), ([], 200.0))
+        # T = 25 + 20 (1 - exp(-t/250 s))
+        self.assertAlmostEqual(sim["block.T"], 25 + 20 * (1 - np.exp(-0.8)), delta=2e-2)
 
 
 if __name__ == "__main__":

@@ -38,6 +38,7 @@ class Function:
         over: str | None,
         times: tuple[str | None, str | None],
     ) -> None:
+        self._made = (network, of, by, over, times)
         texts = _named(of)
         self.names = list(texts)
         self.parameters = [by] if isinstance(by, str) else list(by)
@@ -94,6 +95,9 @@ class Function:
     def jax(self) -> Any:
         """A function of JAX, which `jax.grad` and `jax.jacrev` differentiate once."""
         return _jax(self)
+
+    def __reduce__(self) -> Any:
+        return (Function, self._made)
 
     def __repr__(self) -> str:
         of = ", ".join(f"{name} [{unit}]" for name, unit in zip(self.names, self.units))

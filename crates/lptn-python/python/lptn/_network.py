@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
+from threading import RLock
 from typing import TYPE_CHECKING, Any
 
 from . import _lptn
@@ -273,69 +274,88 @@ def asked(question: str, files: list[Any], words: dict[str, Any]) -> Result:
 class Simulation:
     """A network with its state at a time, stepped by the program: a controller, a cosimulation.
 
-    `sim["steel.T"]` is the present temperature in `sim.temperature_unit`.
+    `sim["steel.T"]` is the present temperature in `sim.temperature_unit`. Threads may share it: one
+    waits for the step of another.
     """
 
     def __init__(self, network: Network) -> None:
         self.network = network
         self._of = _lptn.Simulation(network._netlist)
+        # a second thread waits until a step has ended
+        self._lock = RLock()
 
     @property
     def time(self) -> float:
         """The time that was reached, in s."""
-        return self._of.time
+        with self._lock:
+            return self._of.time
 
     @property
     def temperature_unit(self) -> str:
         """The unit of temperatures: that of the netlist."""
-        return self._of.temperature_unit
+        with self._lock:
+            return self._of.temperature_unit
 
     @property
     def events(self) -> list[tuple[float, str, str, bool, bool]]:
         """The events of the last step: time in s, kind, name, state before and after."""
-        return self._of.events
+        with self._lock:
+            return self._of.events
 
     def __getitem__(self, name: str) -> float:
         """The temperature of a node: `sim["steel.T"]`."""
-        return self._of.temperature(name.removesuffix(".T"))
+        return self.temperature(name.removesuffix(".T"))
 
     def temperature(self, node: str) -> float:
         """The temperature of a node, in the unit of temperatures."""
-        return self._of.temperature(node)
+        with self._lock:
+            return self._of.temperature(node)
 
     def state(self, name: str) -> float:
         """The value of a state of `[state]`, in its SI unit."""
-        return self._of.state(name)
+        with self._lock:
+            return self._of.state(name)
 
     def set(self, **inputs: Any) -> None:
         """Fixes parameters and signals from now on: `sim.set(P_7000=(220, "W"))`."""
         for name, value in values(inputs, lambda: self.network._netlist).items():
-            self._of.set(name, value)
+            with self._lock:
+                self._of.set(name, value)
 
     def release(self, *names: str) -> None:
         """Gives signals their own time histories again, parameters their own values."""
         for name in names:
-            self._of.release(name)
+            with self._lock:
+                self._of.release(name)
 
     def step(self, length: Any) -> None:
         """Steps by a time such as "10 s"."""
-        self._of.step(length)
+        with self._lock:
+            self._of.step(length)
 
     def advance(self, to: Any) -> None:
         """Steps to a time such as "10 min"."""
-        self._of.advance(to)
+        with self._lock:
+            self._of.advance(to)
 
     def event_indicators(self) -> dict[str, tuple[float, str]]:
         """The distance to every event: number and unit, zero at the event."""
-        return {name: (value, unit) for name, value, unit in self._of.event_indicators()}
+        with self._lock:
+            found = self._of.event_indicators()
+        return {name: (value, unit) for name, value, unit in found}
 
     def save(self) -> str:
         """The state, for `restore`."""
-        return self._of.save()
+        with self._lock:
+            return self._of.save()
 
     def restore(self, saved: str) -> None:
         """Goes to a state that a simulation of the same network saved."""
-        self._of.restore(saved)
+        try:
+            with self._lock:
+                self._of.restore(saved)
+        except (TypeError, ValueError):
+            raise ValueError("`restore` takes a text that `save` of a simulation gave") from None
 
     def __repr__(self) -> str:
         return f"<lptn.Simulation of {self.network.title} at {self.time:g} s>"

@@ -124,6 +124,9 @@ class Table:
         """The heading of a column: `steel.T [degC]`."""
         return f"{name} [{self.units[name]}]" if name in self.units else name
 
+    def __reduce__(self) -> Any:
+        return (Table, (Kept.of(self._answer), self._scalar))
+
     def __repr__(self) -> str:
         return f"<Table of {len(self)} rows: {', '.join(self.names[:8])}>"
 

@@ -30,14 +30,15 @@ def one_of(name: str, word: str, words: tuple[str, ...]) -> None:
 
 def given(words: Mapping[str, Any], read: Read, several: bool = False) -> dict[str, Any]:
     """The words of a question; `several` values of a parameter are variants."""
+    for name in ("set", "options"):
+        if name in words and not isinstance(words[name], (Mapping, type(None))):
+            kind = type(words[name]).__name__
+            raise TypeError(f'`{name}` takes a dictionary such as {{"fan.G": "2 W/K"}}, not {kind}')
     inner = words.get("set")
     if inner is None and all(map(_is_ready, words.values())):
         return {**words}
     if inner is None:
         return values(words, read, several)
-    if not isinstance(inner, Mapping):
-        kind = type(inner).__name__
-        raise TypeError(f'`set` takes a dictionary such as {{"fan.G": "2 W/K"}}, not {kind}')
     others = {name: word for name, word in words.items() if name != "set"}
     return {**values(others, read, several), "set": values(inner, read, several)}
 
