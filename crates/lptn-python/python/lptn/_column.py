@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from typing import Any, Literal
+from weakref import WeakKeyDictionary
 
 from . import _lptn
 from ._numpy import np
@@ -12,7 +13,11 @@ from ._numpy import np
 _FIXED = {"data", "dtype", "flat", "imag", "real", "shape", "strides"}
 
 
-class Column(np.ndarray):
+# The columns that axes show, each with its line.
+_shown: WeakKeyDictionary[Any, list[tuple[Any, Column]]] = WeakKeyDictionary()
+
+
+class Column(np.ndarray[Any, np.dtype[np.float64]]):
     """Values of a column in the unit that is shown, as an array of NumPy that is read-only.
 
     `name` and `unit` are those of the column, `si` has the values in SI units (temperatures in K).
@@ -72,7 +77,7 @@ class Column(np.ndarray):
         return self._index
 
     @property
-    def si(self) -> np.ndarray:
+    def si(self) -> np.ndarray[Any, np.dtype[np.float64]]:
         """The values in SI units, temperatures in K."""
         scale, offset, _ = _lptn.unit(self.unit or "1")
         return (np.asarray(self) + offset) * scale
@@ -98,11 +103,15 @@ class Column(np.ndarray):
         words.setdefault("label", self.name)
         values = np.atleast_1d(np.asarray(self))
         if self.index is None:
-            ax.plot(values, **words)
+            (line,) = ax.plot(values, **words)
         else:
-            ax.plot(np.asarray(self.index), values, **words)
+            (line,) = ax.plot(np.asarray(self.index), values, **words)
             ax.set_xlabel(self._over)
-        ax.set_ylabel(f"{self.name} [{self.unit}]")
+        shown = [one for one in _shown.get(ax, []) if one[0].axes is ax]
+        _shown[ax] = [*shown, (line, self)]
+        ax.set_ylabel(_label([column for _, column in _shown[ax]]))
+        if shown:
+            ax.legend()
         return ax
 
     @property
@@ -148,6 +157,21 @@ class Column(np.ndarray):
 
     def __str__(self) -> str:
         return f"{self.item()}" if self.ndim == 0 else np.array2string(np.asarray(self))
+
+
+def _label(columns: list[Column]) -> str:
+    """The label of an axis with these columns: a name, or a noun, with each unit."""
+    names: dict[str, list[str]] = {}
+    for shown in columns:
+        of_unit = names.setdefault(shown.unit, [])
+        if shown.name not in of_unit:
+            of_unit.append(shown.name)
+
+    def noun(of_unit: list[str]) -> str:
+        several = len(of_unit) > 1 and all(name.endswith(".T") for name in of_unit)
+        return "temperature" if several else ", ".join(of_unit)
+
+    return ", ".join(f"{noun(of_unit)} [{unit}]" for unit, of_unit in names.items())
 
 
 def _plain(of: Any) -> Any:

@@ -46,7 +46,7 @@ def sweep(
         netlist = _lptn.Netlist.parse(text + "\n".join(lines) + "\n", name, network._set)
         with shown(words) as words:
             answer = netlist.ask("sweep", [], {**words, "name": "frame"})
-        return answered(answer, "sweep", words, 3)
+        return answered(answer, "sweep", words, 3, network=network)
 
 
 def explain(network: Network, error: Error, case: Any) -> None:

@@ -221,7 +221,7 @@ class Network(Questions):
         `of` is an expression of the steady state, or `last`, `max`, `min`, `mean` or `integral` of
         one over the run, or `margin(LIMIT)` with `over`; a list or a dictionary gives several. The
         gradient is exact: by the adjoint of a steady state or of a run, through its switches. `stop`
-        and `tolerance` are those of the run.
+        and `tolerance` are those of the run: `last` with `stop="10 min"` is a value at 10 min.
         """
         from ._gradient import Function
 

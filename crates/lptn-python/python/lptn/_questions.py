@@ -13,16 +13,25 @@ from ._result import Explain, Result
 from ._values import given as given_values
 
 
+# Options of every question with parameters.
+MORE = [
+    ("progress", "True shows a bar of tqdm; a function gets done, all and their unit"),
+    ("set", 'parameters whose names Python cannot write: {"fan.G": "2 W/K"}'),
+    ("options", 'options of the names of parameters: {"balance": "steel"}'),
+]
+
+
 def answered(
     answer: _lptn.Answer,
     question: str,
     words: dict[str, Any],
     level: int,
     explain: Explain | None = None,
+    network: Any = None,
 ) -> Result:
     """The result of an answer; doubts are warnings, an answer that is not whole is an error."""
     scalar = question == "steady" and not words.get("periodic")
-    result = Result(answer, question, scalar, explain)
+    result = Result(answer, question, scalar, explain, network)
     exit = answer.exit()
     if exit > 1:
         errors = [Problem(data) for data in result.data.get("errors", [])]
@@ -79,7 +88,8 @@ def _method(name: str, first: str | None, several: bool) -> Any:
             except Error as error:
                 self._explain(error)
                 raise
-        return answered(answer, name, words, 2, self._explain)
+        of = None if several and given else self
+        return answered(answer, name, words, 2, self._explain, of)
 
     return ask
 
@@ -103,6 +113,7 @@ def _declare() -> None:
             continue
         lines = [f"{purpose}: `lptn {name}`.", "", "Options:"]
         lines += [f"    {option}: {means}" for option, _, means in options]
+        lines += [f"    {option}: {means}" for option, means in MORE] if sets else []
         lines += ["", "Other keywords are parameters of the netlist."] if sets else []
         method = _method(name, first, about == "netlists")
         method.__name__ = method_name(name)

@@ -59,7 +59,7 @@ def values(words: Mapping[str, Any], read: Read, several: bool = False) -> dict[
         kelvin = _kelvin(unit) if isinstance(unit, str) else None
         if many or kelvin is None:
             return [one(name, part) for part in word] if several and many else word
-        if not (_is_absolute(read(), name) if pair else str(word.name).endswith(".T")):
+        if not (_is_absolute(read(), name) if pair else str(getattr(word, "name", "")).endswith(".T")):
             return word
         return f"{float(number) * kelvin - _lptn.unit('degC')[1]!r} degC"
 
