@@ -87,8 +87,17 @@ fn example(folder: &Path) -> Option<String> {
     }
     let entries = std::fs::read_dir(folder).ok()?;
     let paths = entries.filter_map(|entry| entry.ok().map(|entry| folder.join(entry.file_name())));
-    let netlists = paths.filter(|path| path.extension().is_some_and(|ending| ending == "toml"));
-    netlists.min().map(|first| format!("name a netlist in it, for example {}", first.display()))
+    let mut files: Vec<_> =
+        paths.filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect();
+    files.sort();
+    let first = files.into_iter().find(|file| is_netlist(file))?;
+    Some(format!("name a netlist in it, for example {}", first.display()))
+}
+
+/// True if a file of TOML has the key `format` of netlists.
+fn is_netlist(file: &Path) -> bool {
+    let text = std::fs::read_to_string(file).unwrap_or_default();
+    text.lines().any(|line| line.replace(' ', "").starts_with("format="))
 }
 
 /// A network with everything that was set in it.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use lptn::{Loaded, Unit};
+use lptn::{Exit, Failure, Loaded, Unit};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -97,9 +97,13 @@ impl Netlist {
         network.thermal_nodes().map(|id| network.nodes()[id.index()].name.clone()).collect()
     }
 
-    /// The flat netlist of the same network.
-    fn to_toml(&self) -> String {
-        self.loaded.usual().netlist.expanded()
+    /// The flat netlist of the same network, if there is one.
+    fn to_toml(&self) -> PyResult<String> {
+        let netlist = &self.loaded.usual().netlist;
+        match netlist.not_flat() {
+            Some(problem) => Err(failed(Failure::at(Exit::No, netlist.files.clone(), problem))),
+            None => Ok(netlist.expanded()),
+        }
     }
 }
 

@@ -67,6 +67,7 @@ class Data(unittest.TestCase):
         data = self.run.to_xarray()
         self.assertEqual(data["block.T"].attrs["units"], "degC")
         self.assertEqual(data["time"].attrs["units"], "s")
+        self.assertEqual(data.attrs["title"], self.net.title)
         np.testing.assert_array_equal(data["block.T"].sel(time=600), self.hot[10])
         self.assertEqual(self.net.steady().to_xarray()["block.T"].shape, ())
 
@@ -91,6 +92,43 @@ class Data(unittest.TestCase):
         with self.assertRaises(ValueError):
             minutes["block.T"].plot(ax=first)
         plt.close("all")
+
+    @needs("matplotlib")
+    def test_labels_and_limits_of_axes(self):
+        import matplotlib
+
+        matplotlib.use("Agg")
+        import matplotlib.pyplot as plt
+
+        self.addCleanup(plt.close, "all")
+        axes = self.run.plot()
+        self.assertEqual(axes.get_ylabel(), "temperature [degC]")
+        texts = [text.get_text() for text in axes.get_legend().get_texts()]
+        self.assertEqual(texts, ["block.T", "air.T", "warm: below 60 degC"])
+        self.assertEqual(set(axes.lines[-1].get_ydata()), {60.0})
+        kelvin = self.net.run(temperature_unit="K").plot("block.T")
+        self.assertEqual((kelvin.get_ylabel(), kelvin.lines[-1].get_ydata()[0]), ("block.T [K]", 333.15))
+        one = plt.subplots()[1]
+        for names, label in [
+            ("block.T", "block.T [degC]"),
+            ("air.T", "temperature [degC]"),
+            ("heat.P", "temperature [degC], heat.P [W]"),
+        ]:
+            self.run[names].plot(ax=one)
+            self.assertEqual(one.get_ylabel(), label)
+        one.cla()
+        self.run["air.T"].plot(ax=one)
+        self.assertEqual(one.get_ylabel(), "air.T [degC]")
+        # a reversed column is drawn at its own times
+        back = self.run["block.T"][::-1].plot(ax=plt.subplots()[1]).lines[0]
+        np.testing.assert_array_equal(back.get_xdata(), np.array(self.run["time"])[::-1])
+        np.testing.assert_array_equal(back.get_ydata(), self.hot[::-1])
+
+    def test_titles(self):
+        net = lptn.parse('title = "A body"\n' + BODY)
+        for result in [net.run(), net.steady(), net.sweep({"P": [1]}), lptn.load(GEARBOX).run()]:
+            again = pickle.loads(pickle.dumps(result))
+            self.assertEqual((result.title, again.title), 2 * (str(result).splitlines()[0],))
 
     def test_a_missing_package_has_an_error(self):
         for package, ask in [("polars", self.run.to_polars), ("pyarrow", self.run.to_arrow)]:
@@ -122,6 +160,14 @@ class Data(unittest.TestCase):
         np.testing.assert_array_equal(kept["block.T"], self.hot)
         self.assertEqual(kept["block.T"].unit, "degC")
 
+    def test_tables_and_functions_are_pickled(self):
+        table = pickle.loads(pickle.dumps(self.run.table))
+        self.assertEqual((table.names, table.units), (self.run.table.names, self.run.table.units))
+        np.testing.assert_array_equal(table["block.T"], self.hot)
+        # T = 25 + P / G, G = 2 W/K
+        function = pickle.loads(pickle.dumps(self.net.value_and_grad("block.T", by="P")))
+        np.testing.assert_allclose(np.hstack(function(60.0)), [55, 0.5], rtol=1e-9)
+
     def test_progress(self):
         told = []
         self.net.run(progress=lambda *reached: told.append(reached))
@@ -148,7 +194,8 @@ class Data(unittest.TestCase):
             lptn.help("conduction")
             lptn.help("run")
             lptn.help()
-        for word in ["W/(m K)", "stop", "temperature_unit", "convection"]:
+        words = ["W/(m K)", "stop", "temperature_unit", "convection", "progress", "set", "options"]
+        for word in words:
             self.assertIn(word, out.getvalue())
         with self.assertRaises(ValueError) as caught:
             lptn.help("conducton")

@@ -71,6 +71,38 @@ class Same(unittest.TestCase):
             self.assertTrue(self.same(["check", file], lambda: lptn.check(file)))
             self.assertFalse(lptn.check(file).ok)
 
+    def test_a_flat_netlist_reads_back(self):
+        """The same numbers in both directions, or an error with a code."""
+        there, refused = 0, set()
+        for file in [*ALL, *sorted((NETWORKS.parent / "docs" / "netlists").glob("*.toml"))]:
+            with self.subTest(network=file.name):
+                try:
+                    net = lptn.load(file)
+                    text = net.to_toml()
+                except lptn.Error as error:
+                    self.assertTrue(error.code)
+                    refused.add(file.name)
+                    continue
+                try:
+                    expected = net.steady()
+                except lptn.Error as error:
+                    with self.assertRaises(lptn.Error) as caught:
+                        lptn.parse(text, str(file)).steady()
+                    self.assertEqual(caught.exception.code, error.code)
+                    continue
+                found = lptn.parse(text, str(file)).steady()
+                self.assertEqual(set(found), set(expected))
+                for name in expected.table.units:
+                    np.testing.assert_allclose(found[name], expected[name], 1e-9, 1e-9)
+                there += 1
+        self.assertGreaterEqual(there, 50)
+        self.assertLessEqual({"sunlit_wall.toml", "board.toml", "wall.toml"}, refused)
+
+    def test_a_grid_has_no_flat_form(self):
+        with self.assertRaises(lptn.Error) as caught:
+            lptn.load(NETWORKS / "sunlit_wall.toml").to_toml()
+        self.assertEqual(caught.exception.code, "netlist::not_flat")
+
     def test_run(self):
         self.each(lambda file: ["run", file], lambda net: net.run(), 30)
 

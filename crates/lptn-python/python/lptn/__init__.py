@@ -12,6 +12,7 @@ from ._lptn import __version__
 # for checkers of types; the rest is imported when it is used, so that the program starts quickly
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from ._column import Column
     from ._functions import check, compare, fit_compare, fit_law, fit_step, size
     from ._gradient import Function
     from ._help import help
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from ._result import Result, Table
 
 __all__ = [
+    "Column",
     "Doubt",
     "Error",
     "Fix",
@@ -44,6 +46,7 @@ __all__ = [
 ]
 
 _MODULES = {
+    "_column": ["Column"],
     "_functions": ["check", "compare", "fit_compare", "fit_law", "fit_step", "size"],
     "_gradient": ["Function"],
     "_help": ["help"],

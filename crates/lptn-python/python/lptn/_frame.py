@@ -9,9 +9,11 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import _lptn
+from ._messages import Error
 from ._progress import shown
 from ._questions import answered
 from ._result import Result
+from ._values import known, one_of
 
 if TYPE_CHECKING:
     from ._network import Network
@@ -30,6 +32,7 @@ def sweep(
     """Solves the rows of a frame: a DataFrame, or a dictionary of columns."""
     import tempfile
 
+    one_of("over", over, ("steady", "run", "periodic"))
     with tempfile.TemporaryDirectory(prefix="lptn-") as folder:
         file = os.path.join(folder, "candidates.csv")
         _write(file, _columns(network, frame))
@@ -43,25 +46,62 @@ def sweep(
         netlist = _lptn.Netlist.parse(text + "\n".join(lines) + "\n", name, network._set)
         with shown(words) as words:
             answer = netlist.ask("sweep", [], {**words, "name": "frame"})
-        return answered(answer, "sweep", words, 3)
+        return answered(answer, "sweep", words, 3, network=network)
+
+
+def explain(network: Network, error: Error, case: Any) -> None:
+    """Says why the first candidate failed: it is solved alone."""
+    result = error.result
+    if result is None or "failed" not in result or not error.code:
+        return
+    first = next(place for place, code in enumerate(result["failed"]) if code)
+    study, units = result.data["sweep"], result.table.units
+    values = {
+        name: (float(result[name][first]), units[name])
+        for name in network.parameters
+        if name in units
+    }
+    question = "run" if study["over"] == "run" else "steady"
+    words = {"periodic": True} if study["over"] == "periodic" else {}
+    try:
+        network._netlist.ask(question, [], {**words, "case": case, "set": values})
+    except Error as reason:
+        if reason.code != error.code:
+            return
+        problem = error.errors[0]
+        problem.message = problem.message.removesuffix(problem.code) + reason.message
+        problem.help = reason.help
+        error.refresh()
 
 
 def _columns(network: Network, frame: Any) -> dict[str, list[float]]:
     """The columns with the headings of a CSV file: `G_out [W/K]`."""
-    units = {name: unit for name, _, unit in network._netlist.parameters()}
     columns: dict[str, list[float]] = {}
     # polars has `columns`, dictionaries have `keys`, pandas both
     for head in frame.columns if hasattr(frame, "columns") else frame:
-        name = str(head)
-        if "[" not in name:
-            if name not in units:
-                known = ", ".join(units)
-                raise TypeError(f"{name} is not a parameter of {network!r}: they are {known}")
-            name = f"{name} [{units[name]}]" if units[name] else name
-        columns[name] = list(map(float, frame[head]))
-    if len({len(values) for values in columns.values()}) != 1:
-        raise TypeError("the columns of a frame have one length, at least one column")
+        name, bracket, _ = str(head).partition("[")
+        unit = known(network._netlist, name.strip())[1]
+        heading = str(head) if bracket or not unit else f"{name} [{unit}]"
+        cells = _cells(name, frame[head])
+        columns[heading] = [
+            cell if type(cell) is float else _number(name.strip(), cell) for cell in cells
+        ]
+    if len({len(cells) for cells in columns.values()}) != 1:
+        lengths = ", ".join(f"{name} {len(cells)}" for name, cells in columns.items()) or "none"
+        raise TypeError(f"a frame has columns of one length, at least one: it has {lengths}")
     return columns
+
+
+def _cells(name: str, column: Any) -> list[Any]:
+    if isinstance(column, str) or not hasattr(column, "__iter__") or getattr(column, "ndim", 1) == 0:
+        raise TypeError(f"column `{name.strip()}` of the frame is a list of numbers, not {column!r}")
+    return column.tolist() if hasattr(column, "tolist") else list(column)
+
+
+def _number(name: str, value: Any) -> float:
+    if isinstance(value, str) or not hasattr(value, "__float__") or getattr(value, "ndim", 0):
+        raise TypeError(f"column `{name}` of the frame has numbers, not {value!r}")
+    return float(value)
 
 
 def _write(file: str, columns: dict[str, list[float]]) -> None:

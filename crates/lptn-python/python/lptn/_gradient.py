@@ -10,12 +10,15 @@ from typing import TYPE_CHECKING, Any
 from . import _lptn
 from ._messages import Error
 from ._numpy import np
+from ._values import known, one_of
 
 if TYPE_CHECKING:
     from ._network import Network
 
 _OVER_TIME = re.compile(r"\s*(last|max|min|mean|integral)\(([^,]*)\)\s*$")
 _MARGIN = re.compile(r"\s*margin\((.*)\)\s*$")
+# a periodic steady state has no gradient, which its own error says
+_OVER = ("steady", "run", "periodic")
 _RUN = re.compile(r"^\s*(\[\s*run\s*\]|run\s*[=.])", re.MULTILINE)
 
 
@@ -35,10 +38,17 @@ class Function:
         over: str | None,
         times: tuple[str | None, str | None],
     ) -> None:
+        self._made = (network, of, by, over, times)
         texts = _named(of)
         self.names = list(texts)
         self.parameters = [by] if isinstance(by, str) else list(by)
+        _check(texts, self.parameters, over)
         self.over = over or _over(list(texts.values()))
+        if self.over != "run" and times != (None, None):
+            raise TypeError(
+                "`stop` and `tolerance` are those of a run, and the results are those of a steady "
+                'state: leave them out, or write functionals such as "max(steel.T)"'
+            )
         self._one = isinstance(of, str)
         margins, reports = _split(texts)
         text = _study(network, self.parameters, reports, self.over)
@@ -86,10 +96,23 @@ class Function:
         """A function of JAX, which `jax.grad` and `jax.jacrev` differentiate once."""
         return _jax(self)
 
+    def __reduce__(self) -> Any:
+        return (Function, self._made)
+
     def __repr__(self) -> str:
         of = ", ".join(f"{name} [{unit}]" for name, unit in zip(self.names, self.units))
         by = ", ".join(f"{name} [{unit}]" for name, unit in zip(self.parameters, self.x_units))
         return f"<lptn.Function {of} of {by}>"
+
+
+def _check(texts: dict[str, str], by: list[str], over: str | None) -> None:
+    twice = [name for name in by if by.count(name) > 1]
+    if not texts or not by:
+        raise TypeError("a gradient needs a result and a parameter: `of` and `by` name at least one")
+    if twice:
+        raise TypeError(f"`by` names `{twice[0]}` more than once")
+    if over is not None:
+        one_of("over", over, _OVER)
 
 
 def _rename(error: Error, results: list[str], lines: int) -> None:
@@ -124,11 +147,7 @@ def _split(texts: dict[str, str]) -> tuple[dict[str, str], dict[str, str]]:
 
 def _study(network: Network, by: list[str], reports: dict[str, str], over: str) -> str:
     """A sweep of one candidate: the parameters at their own values, the results as reports."""
-    known = {name: (value, unit) for name, value, unit in network._netlist.parameters()}
-    for name in by:
-        if name not in known:
-            raise TypeError(f"{name} is not a parameter of {network!r}: they are {', '.join(known)}")
-    own = {name: f"{known[name][0]!r} {known[name][1]}".strip() for name in by}
+    own = {name: "{!r} {}".format(*known(network._netlist, name)).strip() for name in by}
     axes = [f"{json.dumps(name)} = [{json.dumps(text)}]" for name, text in own.items()]
     lines = ["[sweep.lptn_gradient]", 'method = "list"', f"over = {json.dumps(over)}"]
     lines += ["[sweep.lptn_gradient.axes]", *axes, "[sweep.lptn_gradient.report]"]

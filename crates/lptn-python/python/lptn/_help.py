@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 
 from . import _lptn
-from ._questions import method_name
+from ._questions import MORE, method_name
 
 
 def help(topic: str | None = None) -> None:
@@ -60,6 +60,7 @@ def _question(
 ) -> str:
     lines = [f"lptn {name}  {purpose}"]
     lines += [f"  {option}: {means}" for option, _, means in options]
+    lines += [f"  {option}: {means}" for option, means in MORE] if sets else []
     return "\n".join([*lines, "  other keywords are parameters of the netlist"] if sets else lines)
 
 

@@ -38,6 +38,9 @@ class Tables:
 
     def add(self, section: str, name: str, value: Any) -> None:
         """Adds an entry to a section."""
+        for text in (section, name):
+            if not isinstance(text, str):
+                raise TypeError(f"names are texts, not {type(text).__name__}: {text!r}")
         entries = self._sections.setdefault(section, {})
         if name in entries:
             raise ValueError(f"{section} {name!r} is there already: {self._made[section, name]}")
@@ -76,7 +79,8 @@ class Tables:
         lines: list[tuple[str, tuple[str, str] | None]] = []
         lines += [(f"{_key(key)} = {toml(value)}", None) for key, value in self._top.items()]
         for section, entries in self._sections.items():
-            lines += [("", None), (f"[{_key(section)}]", None)]
+            # a section that is wrong is that of its first entry
+            lines += [("", None), (f"[{_key(section)}]", (section, next(iter(entries))))]
             for name, value in entries.items():
                 lines.append((f"{_key(name)} = {toml(value)}", (section, name)))
         return lines

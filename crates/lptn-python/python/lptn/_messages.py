@@ -4,8 +4,41 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import warnings
+from functools import lru_cache
 from typing import Any
+
+from . import _lptn
+
+# A command of the program, which stays as it is.
+_COMMAND = re.compile(r"(`lptn [^`]*`|\blptn [a-z]+ [^`;:]*)")
+# A parameter that is set: `--set "P=3 W"`.
+_SET = re.compile(r"""--set ("?)([\w.]+)=([^"`]*[^"`\s])\1""")
+# An option, perhaps with its value: `--stop "2 h"`, `--keep steel,housing`.
+_OPTION = re.compile(
+    r"""--([a-z][a-z-]*)(?:[ =](?:["']([^"']*)["']|(\d[^\s,;`]*|[A-Z]{4,}|\w+,[\w,]+)))?"""
+)
+
+
+@lru_cache(maxsize=1)
+def _options() -> set[str]:
+    return {"set", *(option for question in _lptn.questions() for option, *_ in question[5])}
+
+
+def in_python(text: str) -> str:
+    """A sentence with the words of Python: `stop="2 h"` for `--stop "2 h"`."""
+
+    def option(match: re.Match[str]) -> str:
+        name = match[1].replace("-", "_")
+        if name not in _options():
+            return match[0]
+        value = match[2] or match[3]
+        return f'{"for_" if name == "for" else name}="{value}"' if value else name
+
+    parts = _COMMAND.split(text)
+    parts[::2] = [_OPTION.sub(option, _SET.sub(r'\2="\3"', part)) for part in parts[::2]]
+    return "".join(parts)
 
 
 class Place:
@@ -56,15 +89,16 @@ class Problem:
     def __init__(self, data: dict[str, Any]) -> None:
         self.code: str = data["code"]
         self.severity: str = data["severity"]
-        self.message: str = data["message"]
-        self.help: str | None = data.get("help")
-        self.notes: list[str] = data.get("notes", [])
+        self.message: str = in_python(data["message"])
+        self.help: str | None = in_python(data["help"]) if data.get("help") else None
+        self.notes: list[str] = [in_python(note) for note in data.get("notes", [])]
         self.places: list[Place] = [Place(place) for place in data.get("places", [])]
         self.fix: Fix | None = Fix(data["fix"]) if data.get("fix") else None
         self.made: Made | None = None
 
     def __str__(self) -> str:
-        primary = [place for place in self.places if place.primary]
+        # the place of an argument is an option of the command line
+        primary = [p for p in self.places if p.primary and not p.file.startswith("--")]
         where = f"{self.made or primary[0]!r}: " if primary else ""
         help = f"\n  help: {self.help}" if self.help else ""
         return f"{where}{self.message} [{self.code}]{help}"

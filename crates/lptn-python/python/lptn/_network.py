@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
+from threading import RLock
 from typing import TYPE_CHECKING, Any
 
 from . import _lptn
+from ._frame import explain as explain_sweep
 from ._frame import sweep as frame_sweep
 from ._made import Tables, of_text
 from ._made import keys as made_keys
 from ._messages import Error, Problem, problems
 from ._questions import Questions, answered, paths
 from ._result import Result
+from ._values import values
 
 if TYPE_CHECKING:
     from ._gradient import Function
@@ -57,7 +60,8 @@ class Network(Questions):
     @classmethod
     def from_toml(cls, text: str, /, name: str = "netlist.toml", **parameters: Any) -> Network:
         """The network of a text, to which entries can be added."""
-        return cls.__new__(cls)._of_tables(of_text(text, name, parameters))
+        own = values(parameters, lambda: _lptn.Netlist.parse(text, name, {}))
+        return cls.__new__(cls)._of_tables(of_text(text, name, own))
 
     @property
     def _netlist(self) -> _lptn.Netlist:
@@ -154,8 +158,15 @@ class Network(Questions):
 
     def to_toml(self) -> str:
         """The netlist: the entries that were made, or the flat netlist of one that was loaded, as
-        `lptn check --expand` prints it."""
-        return self._netlist.to_toml() if self._tables is None else self._tables.text
+        `lptn check --expand` prints it.
+
+        Raises `lptn.Error` if a network that was loaded, such as one with a grid, has no flat form.
+        """
+        if self._tables is not None:
+            return self._tables.text
+        text = self._netlist.to_toml()
+        _lptn.Netlist.parse(text, self._source[1 if self._source[0] == "load" else 2], {})
+        return text
 
     @property
     def text(self) -> tuple[str, str]:
@@ -183,11 +194,15 @@ class Network(Questions):
         its unit too: `"G_out [W/K]"`. A number is in the unit of the parameter in the netlist. `over`
         is "steady", "run" or "periodic"; without `report` the temperatures of the nodes are reported.
         """
-        if name is None or isinstance(name, (str, os.PathLike)):
-            if over is not None or report is not None:
-                raise TypeError("`over` and `report` belong to a frame: a study has its own")
-            return super().sweep(name, **words)
-        return frame_sweep(self, name, over or "steady", report, words)
+        try:
+            if name is None or isinstance(name, (str, os.PathLike)):
+                if over is not None or report is not None:
+                    raise TypeError("`over` and `report` belong to a frame: a study has its own")
+                return super().sweep(name, **words)
+            return frame_sweep(self, name, over or "steady", report, words)
+        except Error as error:
+            explain_sweep(self, error, words.get("case"))
+            raise
 
     def value_and_grad(
         self,
@@ -206,7 +221,7 @@ class Network(Questions):
         `of` is an expression of the steady state, or `last`, `max`, `min`, `mean` or `integral` of
         one over the run, or `margin(LIMIT)` with `over`; a list or a dictionary gives several. The
         gradient is exact: by the adjoint of a steady state or of a run, through its switches. `stop`
-        and `tolerance` are those of the run.
+        and `tolerance` are those of the run: `last` with `stop="10 min"` is a value at 10 min.
         """
         from ._gradient import Function
 
@@ -230,14 +245,17 @@ def load(file: str | os.PathLike[str], /, **parameters: Any) -> Network:
 
     Raises `lptn.Error` with all problems of the netlist.
     """
-    name = os.fspath(file)
-    return Network._of(_lptn.Netlist.read(name, parameters), ("load", name, parameters))
+    name = os.fsdecode(file)
+    own = values(parameters, lambda: _lptn.Netlist.read(name, {}))
+    return Network._of(_lptn.Netlist.read(name, own), ("load", name, own))
 
 
 def parse(text: str, /, name: str = "netlist.toml", **parameters: Any) -> Network:
     """Reads a netlist from a text; files that it names are relative to the place of `name`."""
-    netlist = _lptn.Netlist.parse(text, name, parameters)
-    return Network._of(netlist, ("parse", text, name, parameters))
+    if not isinstance(text, str):
+        raise TypeError(f"a netlist is a text, not {type(text).__name__}: lptn.load reads a file")
+    own = values(parameters, lambda: _lptn.Netlist.parse(text, name, {}))
+    return Network._of(_lptn.Netlist.parse(text, name, own), ("parse", text, name, own))
 
 
 def _again(how: str, text: str, *rest: Any) -> Network:
@@ -256,69 +274,88 @@ def asked(question: str, files: list[Any], words: dict[str, Any]) -> Result:
 class Simulation:
     """A network with its state at a time, stepped by the program: a controller, a cosimulation.
 
-    `sim["steel.T"]` is the present temperature in `sim.temperature_unit`.
+    `sim["steel.T"]` is the present temperature in `sim.temperature_unit`. Threads may share it: one
+    waits for the step of another.
     """
 
     def __init__(self, network: Network) -> None:
         self.network = network
         self._of = _lptn.Simulation(network._netlist)
+        # a second thread waits until a step has ended
+        self._lock = RLock()
 
     @property
     def time(self) -> float:
         """The time that was reached, in s."""
-        return self._of.time
+        with self._lock:
+            return self._of.time
 
     @property
     def temperature_unit(self) -> str:
         """The unit of temperatures: that of the netlist."""
-        return self._of.temperature_unit
+        with self._lock:
+            return self._of.temperature_unit
 
     @property
     def events(self) -> list[tuple[float, str, str, bool, bool]]:
         """The events of the last step: time in s, kind, name, state before and after."""
-        return self._of.events
+        with self._lock:
+            return self._of.events
 
     def __getitem__(self, name: str) -> float:
         """The temperature of a node: `sim["steel.T"]`."""
-        return self._of.temperature(name.removesuffix(".T"))
+        return self.temperature(name.removesuffix(".T"))
 
     def temperature(self, node: str) -> float:
         """The temperature of a node, in the unit of temperatures."""
-        return self._of.temperature(node)
+        with self._lock:
+            return self._of.temperature(node)
 
     def state(self, name: str) -> float:
         """The value of a state of `[state]`, in its SI unit."""
-        return self._of.state(name)
+        with self._lock:
+            return self._of.state(name)
 
     def set(self, **inputs: Any) -> None:
         """Fixes parameters and signals from now on: `sim.set(P_7000=(220, "W"))`."""
-        for name, value in inputs.items():
-            self._of.set(name, value)
+        for name, value in values(inputs, lambda: self.network._netlist).items():
+            with self._lock:
+                self._of.set(name, value)
 
     def release(self, *names: str) -> None:
         """Gives signals their own time histories again, parameters their own values."""
         for name in names:
-            self._of.release(name)
+            with self._lock:
+                self._of.release(name)
 
     def step(self, length: Any) -> None:
         """Steps by a time such as "10 s"."""
-        self._of.step(length)
+        with self._lock:
+            self._of.step(length)
 
     def advance(self, to: Any) -> None:
         """Steps to a time such as "10 min"."""
-        self._of.advance(to)
+        with self._lock:
+            self._of.advance(to)
 
     def event_indicators(self) -> dict[str, tuple[float, str]]:
         """The distance to every event: number and unit, zero at the event."""
-        return {name: (value, unit) for name, value, unit in self._of.event_indicators()}
+        with self._lock:
+            found = self._of.event_indicators()
+        return {name: (value, unit) for name, value, unit in found}
 
     def save(self) -> str:
         """The state, for `restore`."""
-        return self._of.save()
+        with self._lock:
+            return self._of.save()
 
     def restore(self, saved: str) -> None:
         """Goes to a state that a simulation of the same network saved."""
-        self._of.restore(saved)
+        try:
+            with self._lock:
+                self._of.restore(saved)
+        except (TypeError, ValueError):
+            raise ValueError("`restore` takes a text that `save` of a simulation gave") from None
 
     def __repr__(self) -> str:
         return f"<lptn.Simulation of {self.network.title} at {self.time:g} s>"

@@ -10,6 +10,15 @@ from . import _lptn
 from ._messages import Error, Problem, warn
 from ._progress import shown
 from ._result import Explain, Result
+from ._values import given as given_values
+
+
+# Options of every question with parameters.
+MORE = [
+    ("progress", "True shows a bar of tqdm; a function gets done, all and their unit"),
+    ("set", 'parameters whose names Python cannot write: {"fan.G": "2 W/K"}'),
+    ("options", 'options of the names of parameters: {"balance": "steel"}'),
+]
 
 
 def answered(
@@ -18,10 +27,11 @@ def answered(
     words: dict[str, Any],
     level: int,
     explain: Explain | None = None,
+    network: Any = None,
 ) -> Result:
     """The result of an answer; doubts are warnings, an answer that is not whole is an error."""
     scalar = question == "steady" and not words.get("periodic")
-    result = Result(answer, question, scalar, explain)
+    result = Result(answer, question, scalar, explain, network)
     exit = answer.exit()
     if exit > 1:
         errors = [Problem(data) for data in result.data.get("errors", [])]
@@ -35,8 +45,14 @@ def answered(
 
 
 def _none(result: Result) -> Problem:
-    message = "; ".join(result.verdict) or "the answer is not whole"
-    return Problem({"code": "", "severity": "error", "message": message})
+    """The problem of an answer that does not say its errors: of a sweep without a candidate."""
+    codes = result.table["failed"] if "failed" in result else []
+    message, code = "; ".join(result.verdict) or f"{result.question} has no whole answer", ""
+    if any(codes):
+        count, first = sum(map(bool, codes)), next(k for k, code in enumerate(codes) if code)
+        case, code = int(result["case"][first]), codes[first]
+        message = f"{count} of {len(codes)} candidates failed; candidate {case}: {code}"
+    return Problem({"code": code, "severity": "error", "message": message})
 
 
 def paths(netlists: tuple[Any, ...]) -> list[str]:
@@ -67,11 +83,13 @@ def _method(name: str, first: str | None, several: bool) -> Any:
             words[first] = given[0]
         with shown(words) if "progress" in words else nullcontext(words) as words:
             try:
+                words = given_values(words, lambda: self._netlist, name == "compare")
                 answer = self._netlist.ask(name, others, words)
             except Error as error:
                 self._explain(error)
                 raise
-        return answered(answer, name, words, 2, self._explain)
+        of = None if several and given else self
+        return answered(answer, name, words, 2, self._explain, of)
 
     return ask
 
@@ -95,6 +113,7 @@ def _declare() -> None:
             continue
         lines = [f"{purpose}: `lptn {name}`.", "", "Options:"]
         lines += [f"    {option}: {means}" for option, _, means in options]
+        lines += [f"    {option}: {means}" for option, means in MORE] if sets else []
         lines += ["", "Other keywords are parameters of the netlist."] if sets else []
         method = _method(name, first, about == "netlists")
         method.__name__ = method_name(name)

@@ -14,12 +14,15 @@ from ._result import Explain, Result
 Text = str | os.PathLike[str] | SupportsFloat | tuple[float, str]
 Netlist = str | os.PathLike[str] | Network
 
+MORE: list[tuple[str, str]]
+
 def answered(
     answer: _lptn.Answer,
     question: str,
     words: dict[str, Any],
     level: int,
     explain: Explain | None = None,
+    network: Any = None,
 ) -> Result: ...
 def paths(netlists: tuple[Any, ...]) -> list[str]: ...
 def method_name(question: str) -> str: ...

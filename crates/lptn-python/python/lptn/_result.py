@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _lptn
@@ -49,7 +49,7 @@ class Table:
         first: Any = self[self.names[0]]
         return len(first) if getattr(first, "ndim", 1) else 1
 
-    def __getitem__(self, name: str) -> Any:
+    def __getitem__(self, name: str) -> Column | Any:
         if name not in self.units:
             words = self._answer.words(name) if name in self._names else None
             if words is None:
@@ -101,6 +101,9 @@ class Table:
     def head(self, name: str) -> str:
         """The heading of a column: `steel.T [degC]`."""
         return f"{name} [{self.units[name]}]" if name in self.units else name
+
+    def __reduce__(self) -> Any:
+        return (Table, (Kept.of(self._answer), self._scalar))
 
     def __repr__(self) -> str:
         return f"<Table of {len(self)} rows: {', '.join(self.names[:8])}>"
@@ -170,8 +173,8 @@ class Kept:
         return self._cells.get(name, (None, None))[1]
 
 
-def _again(kept: Kept, question: str, scalar: bool) -> Result:
-    return Result(kept, question, scalar)
+def _again(kept: Kept, question: str, scalar: bool, title: str) -> Result:
+    return Result(kept, question, scalar, title=title)
 
 
 class Result:
@@ -186,6 +189,7 @@ class Result:
         question: str,
         scalar: bool,
         explain: Explain | None = None,
+        title: Any = None,
     ) -> None:
         self._answer = answer
         self._explain = explain
@@ -195,6 +199,13 @@ class Result:
         self._doubts: list[Problem] | None = None
         self.question = question
         """The question: `run`, `fit network`."""
+        # a network is asked for its title when it is needed
+        self._titled: Any = title or question
+
+    @property
+    def title(self) -> str:
+        """The title of the network, or the question if it is about several."""
+        return self._titled if isinstance(self._titled, str) else self._titled.title
 
     def json(self) -> str:
         """The object that `--format json` prints, to the byte."""
@@ -218,7 +229,8 @@ class Result:
             self._table = Table(self._answer, self._scalar)
         return self._table
 
-    def __getitem__(self, name: str) -> Any:
+    def __getitem__(self, name: str) -> Column | Any:
+        """A column; a list of texts if its cells are words."""
         return self.table[name]
 
     def __contains__(self, name: object) -> bool:
@@ -245,7 +257,7 @@ class Result:
 
     def to_xarray(self) -> Any:
         """The rows as an xarray Dataset over time; variables have the attribute `units`."""
-        return self.table.to_xarray(str(self.data.get("title") or self.question))
+        return self.table.to_xarray(self.title)
 
     @property
     def limits(self) -> dict[str, Any]:
@@ -276,7 +288,9 @@ class Result:
         return self._answer.svg()
 
     def plot(self, *names: str, ax: Any = None, **words: Any) -> Any:
-        """Draws columns, or all temperatures, with matplotlib: in `ax` or in a new figure."""
+        """Draws columns, or all temperatures, and their limits with matplotlib: in `ax` or in a new
+        figure.
+        """
         if ax is None:
             from ._frames import needed
 
@@ -284,14 +298,23 @@ class Result:
         names = names or tuple(name for name in self.table.units if name.endswith(".T"))
         for name in names:
             ax = self[name].plot(ax=ax, **words)
-        if len(names) > 1:
-            units = {self.table.units[name] for name in names}
-            ax.set_ylabel(" or ".join(f"[{unit}]" for unit in sorted(units)))
+        for text, value in self._bounds(names):
+            ax.axhline(value, linestyle="--", color="black", linewidth=1, label=text)
             ax.legend()
         return ax
 
+    def _bounds(self, names: Sequence[str]) -> Iterator[tuple[str, float]]:
+        """The constant bounds of the limits of these columns, in their units."""
+        for name, limit in self.limits.items():
+            for side in ("below", "above"):
+                bound = limit.get(side)
+                if limit.get("of") in names and isinstance(bound, dict):
+                    value, unit = bound.get("value"), bound.get("unit")
+                    if value is not None and unit == self.table.units[limit["of"]]:
+                        yield f"{name}: {side} {value:g} {unit}", value
+
     def __reduce__(self) -> Any:
-        return (_again, (Kept.of(self._answer), self.question, self._scalar))
+        return (_again, (Kept.of(self._answer), self.question, self._scalar, self.title))
 
     def __str__(self) -> str:
         return self._answer.text()

@@ -1,0 +1,94 @@
+"""Values of parameters: their names, and temperatures that count from 0 K."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from typing import Any
+
+from . import _lptn
+
+_NUMBERS = (float, int)
+
+# Reads the netlist whose parameters get the values.
+Read = Callable[[], _lptn.Netlist]
+
+
+def known(netlist: _lptn.Netlist, name: str) -> tuple[float, str]:
+    """The value and unit of a parameter, or the error of every question for an unknown one."""
+    own = _parameters(netlist)
+    if name not in own:
+        netlist.ask("modes", [], {"set": {name: "1"}})
+    return own[name]
+
+
+def one_of(name: str, word: str, words: tuple[str, ...]) -> None:
+    """Refuses a word that is not one of these."""
+    if word not in words:
+        raise ValueError(f"`{name}` is one of {', '.join(words)}, not {word!r}")
+
+
+def given(words: Mapping[str, Any], read: Read, several: bool = False) -> dict[str, Any]:
+    """The words of a question; `several` values of a parameter are variants."""
+    for name in ("set", "options"):
+        if name in words and not isinstance(words[name], (Mapping, type(None))):
+            kind = type(words[name]).__name__
+            raise TypeError(f'`{name}` takes a dictionary such as {{"fan.G": "2 W/K"}}, not {kind}')
+    inner = words.get("set")
+    if inner is None and all(map(_is_ready, words.values())):
+        return {**words}
+    if inner is None:
+        return values(words, read, several)
+    others = {name: word for name, word in words.items() if name != "set"}
+    return {**values(others, read, several), "set": values(inner, read, several)}
+
+
+def values(words: Mapping[str, Any], read: Read, several: bool = False) -> dict[str, Any]:
+    """The words, with a text for each number in K or degR that is an absolute temperature.
+
+    Such a number is one of a parameter that is an absolute temperature, or that of a node in a
+    result. The netlist is read only if a word needs it.
+    """
+
+    def one(name: str, word: Any) -> Any:
+        pair = isinstance(word, tuple) and len(word) == 2 and isinstance(word[1], str)
+        number, unit = word if pair else (word, getattr(word, "unit", None))
+        many = isinstance(number, (list, tuple)) or getattr(number, "ndim", 0) > 0
+        if many and not (several and isinstance(word, list)) and name in _parameters(read()):
+            raise TypeError(f"`{name}` takes one value: net.sweep({{{name!r}: [..]}}) solves many")
+        kelvin = _kelvin(unit) if isinstance(unit, str) else None
+        if many or kelvin is None:
+            return [one(name, part) for part in word] if several and many else word
+        if not (_is_absolute(read(), name) if pair else str(getattr(word, "name", "")).endswith(".T")):
+            return word
+        return f"{float(number) * kelvin - _lptn.unit('degC')[1]!r} degC"
+
+    return {name: word if _is_ready(word) else one(name, word) for name, word in words.items()}
+
+
+def _is_ready(word: Any) -> bool:
+    """True for a text, a number, and a number with a unit that is not K or degR."""
+    kind = type(word)
+    if kind is tuple and len(word) == 2 and type(word[0]) in _NUMBERS and type(word[1]) is str:
+        return _kelvin(word[1]) is None
+    return kind in _NUMBERS or kind is str or word is None or kind is bool
+
+
+def _parameters(netlist: _lptn.Netlist) -> dict[str, tuple[float, str]]:
+    return {name: (value, unit) for name, value, unit in netlist.parameters()}
+
+
+def _is_absolute(netlist: _lptn.Netlist, name: str) -> bool:
+    """True if a parameter is an absolute temperature: its unit has a zero of its own."""
+    unit = _parameters(netlist).get(name, (0.0, ""))[1]
+    return bool(unit) and _lptn.unit(unit)[1] != 0
+
+
+@lru_cache(maxsize=64)
+def _kelvin(unit: str) -> float | None:
+    """K per unit, for K and degR: units that count from 0 K or are differences."""
+    try:
+        scale, offset, si = _lptn.unit(unit)
+    except ValueError:  # refused with its place by the question
+        return None
+    return scale if offset == 0 and si == "K" else None

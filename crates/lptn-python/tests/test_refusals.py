@@ -1,0 +1,138 @@
+"""Messages say the reason in the words of Python."""
+
+import pathlib
+import sys
+import tempfile
+import threading
+import unittest
+
+import numpy as np
+
+import lptn
+from lptn._messages import in_python
+from test_lptn import BODY, GEARBOX
+from test_made import block
+
+
+class Sweeps(unittest.TestCase):
+    def test_a_sweep_without_a_candidate_says_why(self):
+        net = lptn.load(GEARBOX)
+        for words in [{}, {"over": "run", "report": {"hot": "max(steel.T)"}}]:
+            with self.assertRaises(lptn.Error) as caught:
+                net.sweep({"G_out": [-3, -4]}, **words)
+            error = caught.exception
+            self.assertEqual(error.code, "network::not_positive")
+            self.assertIn("2 of 2 candidates failed; candidate 1: ", str(error))
+            # 0.7 of -3 W/K, networks/gearbox.toml
+            self.assertIn("must be more than zero, got -2.1 W/K", str(error))
+            self.assertIn("sign", error.help)
+            self.assertEqual(len(error.result["failed"]), 2)
+
+
+class Arguments(unittest.TestCase):
+    def setUp(self):
+        self.net = lptn.parse(BODY)
+
+    def refused(self, kind, ask, *words):
+        """An argument is refused, and the message has these words."""
+        with self.assertRaises(kind) as caught:
+            ask()
+        for word in words:
+            self.assertIn(word, str(caught.exception))
+        return caught.exception
+
+    def test_an_unknown_parameter_is_one_error(self):
+        net = lptn.load(GEARBOX)
+        for ask in [
+            lambda: net.run(G_ot="4 W/K"),
+            lambda: net.run(set={"G_ot": "4 W/K"}),
+            lambda: net.sweep({"G_ot": [3]}),
+            lambda: net.sweep({"G_ot [W/K]": [3]}),
+            lambda: net.value_and_grad("steel.T", by="G_ot"),
+        ]:
+            error = self.refused(lptn.Error, ask, "no parameter `G_ot`", "did you mean `G_out`?")
+            self.assertEqual(error.code, "netlist::unknown_parameter")
+
+    def test_several_values_are_a_sweep(self):
+        for value in [["3 W", "4 W"], [3, 4], np.array([3, 4]), (np.array([3, 4]), "W"),
+                      ([3, 4], "W"), self.net.run()["heat.P"]]:
+            self.refused(TypeError, lambda: self.net.run(P=value), "`P` takes one value", "sweep")
+            self.refused(TypeError, lambda: self.net.run(set={"P": value}), "`P` takes one value")
+        self.refused(TypeError, lambda: lptn.parse(BODY, P=["3 W", "4 W"]), "`P` takes one value")
+
+    def test_columns_of_a_frame(self):
+        for column in [[3, None], [[3, 4]], 3, ["3 W"], np.ones((2, 2)), np.array(3), "3 W"]:
+            self.refused(TypeError, lambda: self.net.sweep({"P": column}), "column `P`")
+        self.refused(TypeError, lambda: self.net.sweep({"P": [1, 2], "G": [1]}), "P [W] 2")
+        self.refused(ValueError, lambda: self.net.sweep({"P": [1]}, over="runn"), "'runn'")
+
+    def test_kinds_of_arguments(self):
+        self.refused(TypeError, lambda: self.net.run(set="x"), "`set` takes a dictionary")
+        self.refused(TypeError, lambda: self.net.run(options="x"), "`options` takes a dict")
+        self.refused(TypeError, lambda: lptn.parse(b"format = 1"), "a text, not bytes")
+        self.assertEqual(lptn.load(str(GEARBOX).encode()).nodes, lptn.load(GEARBOX).nodes)
+
+    def test_a_folder_is_not_a_netlist(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "Cargo.toml").write_text("[package]\n", encoding="utf-8")
+            error = self.refused(lptn.Error, lambda: lptn.load(folder), "directory")
+            self.assertIsNone(error.help)
+            pathlib.Path(folder, "body.toml").write_text(BODY, encoding="utf-8")
+            self.refused(lptn.Error, lambda: lptn.load(folder), "body.toml")
+
+    def test_gradients(self):
+        ask = self.net.value_and_grad
+        self.refused(TypeError, lambda: ask("block.T", by=[]), "`by`", "at least one")
+        self.refused(TypeError, lambda: ask([], by="P"), "`of`", "at least one")
+        self.refused(TypeError, lambda: ask("block.T", by=["P", "P"]), "`P` more than once")
+        self.refused(ValueError, lambda: ask("block.T", by="P", over="runn"), "'runn'", "steady")
+        for words in [{"stop": "1 s"}, {"tolerance": "1 K"}]:
+            self.refused(TypeError, lambda: ask("block.T", by="P", **words), "those of a run")
+
+    def test_messages_have_the_words_of_python(self):
+        for text, expected in [
+            ('write `--set "T_amb=absolute(300 [K])"`, or so', 'write `T_amb="absolute(300 [K])"`, or so'),
+            ("`--stop` must be a time", "`stop` must be a time"),
+            ('write `--temperature-unit "K"`', 'write `temperature_unit="K"`'),
+            ("write for example --keep steel,housing", 'write for example keep="steel,housing"'),
+            ("more --samples, smaller ones", "more samples, smaller ones"),
+            ("`lptn impedance a.toml --port steel`", "`lptn impedance a.toml --port steel`"),
+            ("run without --certify, or --slice z=1", "run without certify, or --slice z=1"),
+        ]:
+            self.assertEqual(in_python(text), expected)
+        error = self.refused(lptn.Error, lambda: self.net.run(stop="2"), "`stop` must be a time")
+        self.assertNotIn("--", str(error))
+
+    def test_networks_in_code(self):
+        net = block()
+        self.refused(TypeError, lambda: net.node(3, C="1 J/K"), "names are texts, not int")
+        net.path("resistr", "wrong", "block", "air", R="1 K/W")
+        line = sys._getframe().f_lineno - 1
+        self.refused(lptn.Error, net.steady, f"made at test_refusals.py:{line}", "`[resistor]`")
+
+    def test_simulations(self):
+        sim = self.net.simulation()
+        for wrong in ["x", '{"a": 1}', 3, None]:
+            self.refused(ValueError, lambda: sim.restore(wrong), "that `save` of a simulation gave")
+        failed = []
+
+        def steps():
+            try:
+                for _ in range(50):
+                    sim.step("1 s")
+                    sim["block.T"]
+            except BaseException as error:
+                failed.append(error)
+
+        threads = [threading.Thread(target=steps) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual((failed, sim.time), ([], 200.0))
+        # T = 25 + 20 (1 - exp(-t/250 s))
+        self.assertAlmostEqual(sim["block.T"], 25 + 20 * (1 - np.exp(-0.8)), delta=2e-2)
+
+
+if __name__ == "__main__":
+    unittest.main()
