@@ -142,6 +142,12 @@ fn curve(first: &Column, column: &Column) -> Curve {
     Curve { aside, ..Curve::line(name, points) }
 }
 
+/// The names that the column of a curve of a run may have, and whose columns do not differ.
+pub fn column_names(curve: &Curve) -> impl Iterator<Item = String> + '_ {
+    let name = curve.name.split(", ").next().unwrap_or_default();
+    [format!("{name}.T"), name.to_owned()].into_iter()
+}
+
 /// The members of each large family, and the other columns.
 fn grouped<'a>(columns: &[&'a Column]) -> (Vec<Vec<&'a Column>>, Vec<&'a Column>) {
     let mut families: BTreeMap<String, Vec<&Column>> = BTreeMap::new();
