@@ -67,6 +67,21 @@ impl Figure {
         if lines.any(is_dense) { self.daily() } else { self }
     }
 
+    /// Each small panel as a figure, named by its first curve, before the figure of the others.
+    #[must_use]
+    pub fn apart(mut self) -> Vec<Self> {
+        let (small, others): (Vec<_>, Vec<_>) =
+            self.panels.into_iter().partition(|panel| panel.small);
+        let name = |panel: &Panel| panel.curves.first().map_or(String::new(), |c| c.name.clone());
+        let one = |panel| Self { title: name(&panel), note: String::new(), panels: vec![panel] };
+        let mut figures: Vec<Self> = small.into_iter().map(one).collect();
+        self.panels = others;
+        if let (Some(first), true) = (figures.first_mut(), self.panels.is_empty()) {
+            first.note = std::mem::take(&mut self.note);
+        }
+        figures.into_iter().chain([self]).collect()
+    }
+
     /// Lines of very many points thinned, with the lowest and the highest value of each stretch:
     /// no screen shows the difference, and a page can be sent.
     #[must_use]
@@ -233,6 +248,20 @@ mod tests {
         let points = &light.panels[0].curves[0].points;
         assert!(points.len() <= 16_000 && points.contains(&(777.0, 9.0)), "{}", points.len());
         assert_eq!(figure(line(20_000)).light(), figure(line(20_000)));
+    }
+
+    /// Small panels are figures with the names of their curves; the others stay together.
+    #[test]
+    fn small_panels_are_figures_of_their_own() {
+        let mut of = figure(vec![(0.0, 1.0)]);
+        of.note = "note".into();
+        let small = Panel { small: true, ..of.panels[0].clone() };
+        of.panels.insert(0, small);
+        let apart = of.clone().apart();
+        let told: Vec<(&str, &str)> = apart.iter().map(|f| (&*f.title, &*f.note)).collect();
+        assert_eq!(told, [("a", ""), ("", "note")]);
+        of.panels.truncate(1);
+        assert_eq!(of.apart()[0].note, "note");
     }
 
     /// Hours of 61 days are shown as days, those of 59 are not, and neither are weeks.

@@ -32,6 +32,9 @@ impl RunAnswer {
         let (mut panels, left_out) = panels(&table, fold);
         self.know_days(&mut panels);
         panels.iter_mut().for_each(|panel| self.spread(panel));
+        if self.uncertainty().is_some() {
+            panels = panels.into_iter().flat_map(facets).collect();
+        }
         let undrawn = limits::mark(&mut panels, network, unit, families);
         let moments = moments(network, self.solution.events());
         for panel in &mut panels {
@@ -133,6 +136,34 @@ impl RunAnswer {
             *curve = Curve::line(&curve.name, points.collect()).within(sides);
         }
     }
+}
+
+/// Most bands of one panel if they cover each other.
+const TOLD_APART: usize = 2;
+
+/// Height of the panel of one of several bands.
+const FACET: f64 = 0.5;
+
+/// A panel of temperatures with bands that cover each other as a small one for each band, and one
+/// for the lines; else the panel as it is.
+fn facets(panel: Panel) -> Vec<Panel> {
+    let (bands, lines): (Vec<Curve>, Vec<Curve>) =
+        panel.curves.iter().cloned().partition(|curve| !curve.spread.is_empty());
+    let covered = |(i, band): (usize, &Curve)| bands[..i].iter().any(|other| cover(band, other));
+    let hidden = bands.iter().enumerate().any(covered);
+    if panel.y.name != TEMPERATURE || bands.len() <= TOLD_APART || !hidden {
+        return vec![panel];
+    }
+    let bands = bands.into_iter().map(|band| vec![band]);
+    let all = bands.chain([lines]).filter(|curves| !curves.is_empty());
+    all.map(|curves| Panel { curves, share: FACET, small: true, ..panel.clone() }).collect()
+}
+
+/// True if two bands overlap in half of their points.
+fn cover(one: &Curve, other: &Curve) -> bool {
+    let pairs = one.spread.iter().zip(&other.spread);
+    let over = pairs.filter(|(a, b)| a.0 <= b.1 && b.0 <= a.1).count();
+    2 * over >= one.spread.len().min(other.spread.len())
 }
 
 /// Gives the curves of temperatures the inks that their nodes and boundaries have in every picture.
