@@ -4,6 +4,7 @@
 use crate::browser::probed;
 use crate::common;
 
+use common::browse::browsed;
 use common::{Folder, csv};
 use serde_json::Value;
 
@@ -213,6 +214,12 @@ fn a_fit_of_eight_records_is_read_from_its_answer() {
     let value: f64 = shown[1].strip_suffix(" uW/rpm^(5/3)").unwrap().parse().unwrap();
     assert!((value - alpha).abs() < 1e-3, "{value} is not {alpha}");
     assert_eq!(shown[2], "80 uW/rpm^(5/3)");
+    // values, residuals and records are on two screens of 1920 x 1200 pixels
+    let end = "Math.max(...[...document.querySelectorAll('.many figure')].map(figure => \
+               figure.getBoundingClientRect().bottom + scrollY))";
+    let Some(found) = browsed(&folder, &[("page.html", 1920)], end) else { return };
+    let end = found[0].as_f64().unwrap();
+    assert!(end <= 2.0 * 1200.0, "{end} pixels");
 }
 
 /// A plate between two boundaries, hot along one edge.
