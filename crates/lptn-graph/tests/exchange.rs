@@ -17,14 +17,17 @@ fn picture(text: &str) -> Scene {
 }
 
 fn texts(scene: &Scene) -> Vec<&str> {
-    let text = |shape| if let Shape::Text(text) = shape { Some(text.text.as_str()) } else { None };
-    scene.shapes.iter().filter_map(text).collect()
+    let shapes = scene.shapes.iter();
+    shapes
+        .filter_map(|s| if let Shape::Text(text) = s { Some(&*text.text) } else { None })
+        .collect()
 }
 
 /// The words that appear if a reader points at a thing.
 fn tips(scene: &Scene) -> Vec<&str> {
-    let tip = |shape| if let Shape::Path(path) = shape { path.tip.as_deref() } else { None };
-    scene.shapes.iter().filter_map(tip).collect()
+    let shapes = scene.shapes.iter();
+    let tip = shapes.map(|s| if let Shape::Path(path) = s { path.tip.as_deref() } else { None });
+    tip.flatten().collect()
 }
 
 /// Places that are held at 10, 20, 30 … degC by 1 nK/W, and all joined by 1 K/W.
