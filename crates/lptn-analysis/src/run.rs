@@ -3,9 +3,9 @@
 use lptn_assembly::ThermalSystem;
 use lptn_network::{End, Network, NodeId, OutputTimes, RunSettings, Time};
 use lptn_solve::{
-    ControlState, Periodic, PeriodicError, Proceed, Progress, RecordedNodes, RunStatus, Selection,
-    Solution, State, SteadyState, Summary, Transient, TransientError, Unsolved, Verification,
-    Watch, Window,
+    ControlState, Drawn, Periodic, PeriodicError, Proceed, Progress, RecordedNodes, RunStatus,
+    Selection, Solution, State, SteadyState, Summary, Transient, TransientError, Unsolved,
+    Verification, Watch, Window,
 };
 
 use crate::error::{CycleError, RunError};
@@ -89,7 +89,7 @@ impl RunAnalysis {
     pub fn bare(self) -> Self {
         let record = RecordedNodes::Nodes(Vec::new());
         let (watch, windows) = (Vec::new(), Vec::new());
-        let transient = Transient { record, watch, windows, balance: None, jumps: None, ..self.0 };
+        let transient = Transient { record, watch, windows, balance: None, drawn: None, ..self.0 };
         Self(Transient { hottest_only: false, ..transient })
     }
 
@@ -127,10 +127,10 @@ impl RunAnalysis {
         Self(Transient { windows, ..self.0 })
     }
 
-    /// Reads these columns on both sides of jumps too, for pictures.
+    /// Reads the columns of a picture between the rows too.
     #[must_use]
-    pub fn drawing(self, of: Selection) -> Self {
-        Self(Transient { jumps: Some(of), ..self.0 })
+    pub fn drawing(self, drawn: Drawn) -> Self {
+        Self(Transient { drawn: Some(drawn), ..self.0 })
     }
 
     /// Bounds the error of each temperature with proof, and that of these columns: see

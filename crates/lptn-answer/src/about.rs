@@ -9,6 +9,7 @@ use lptn_study::{FileHash, Sundials};
 use lptn_units::Unit;
 use serde_json::Value;
 
+use crate::families::{self, Row};
 use crate::input::{Input, quoted};
 use crate::words::{count, difference, spaced, unverified};
 use crate::{fields, ranges};
@@ -204,16 +205,25 @@ fn parameters(input: &Input, sensitivities: Option<&Sensitivities>) -> Option<Se
             format!("{sigma}{}{}", spaced(text), spread.suffix())
         })
     };
-    let mut table = TextTable::of(&ids)
-        .left("parameter", |id| of(id).name.as_str())
-        .right("value", |id| shown(*id, network.parameter_value(*id)))
-        .left("in the file", |id| written(input, *id));
-    if ids.iter().any(|id| !deviation(id).is_empty()) {
-        table = table.right("\u{b1}, one standard deviation", deviation);
+    // members of a family are one row if the file has one text for all
+    let name = |id: &ParameterId| (of(id).name.clone(), (written(input, *id), deviation(id)));
+    let effect = |id: &ParameterId| sensitivities.and_then(|found| found.values[id.index()]);
+    let most = |id: &ParameterId| effect(id).map_or(0.0, f64::abs);
+    let rows: Vec<Row<ParameterId>> = families::folded(ids, true, name, most);
+    let table = TextTable::of(&rows).left("parameter", |row| row.name.as_str());
+    let value = |row: &Row<ParameterId>| {
+        row.range(|id| network.parameter_value(*id), |value| shown(row.item, value))
+    };
+    let mut table = families::members(table, &rows, "with the largest effect")
+        .right("value", value)
+        .left("in the file", |row| written(input, row.item));
+    if rows.iter().any(|row| !deviation(&row.item).is_empty()) {
+        table = table.right("\u{b1}, one standard deviation", |row| deviation(&row.item));
     }
-    if let Some(found) = sensitivities {
-        let value = |id: &ParameterId| {
-            found.values[id.index()].map_or("-".into(), |kelvin| format!("{kelvin:+.3}"))
+    if sensitivities.is_some() {
+        let value = |row: &Row<ParameterId>| match effect(&row.item) {
+            Some(_) => row.range(|id| effect(id).unwrap_or(f64::NAN), |x| format!("{x:+.3}")),
+            None => "-".to_owned(),
         };
         table = table.right("+1 % changes it by [K]", value);
     }

@@ -44,19 +44,19 @@ impl<T> Row<T> {
 /// Rows of items by name and kind.
 /// With `fold`, a large family is one row at its first member, with the item of the largest
 /// `worst`. Items of different kinds belong to different families.
-pub fn folded<T>(
+pub fn folded<T, K: Clone + Ord>(
     items: Vec<T>,
     fold: bool,
-    name: impl Fn(&T) -> (String, u8),
+    name: impl Fn(&T) -> (String, K),
     worst: impl Fn(&T) -> f64,
 ) -> Vec<Row<T>> {
     let of = |item: &T| {
         let (name, kind) = name(item);
         family(&name).filter(|_| fold).map(|(whole, indices)| ((whole, kind), indices))
     };
-    let mut counts: BTreeMap<(String, u8), usize> = BTreeMap::new();
+    let mut counts: BTreeMap<(String, K), usize> = BTreeMap::new();
     items.iter().filter_map(of).for_each(|(key, _)| *counts.entry(key).or_default() += 1);
-    let mut places: BTreeMap<(String, u8), usize> = BTreeMap::new();
+    let mut places: BTreeMap<(String, K), usize> = BTreeMap::new();
     let mut rows: Vec<Row<T>> = Vec::new();
     for item in items {
         let found = of(&item).map(|(key, indices)| (counts.get(&key).copied(), key, indices));

@@ -3,10 +3,11 @@
 use lptn_analysis::LimitResult;
 use lptn_netlist::{Diagnostic, Netlist};
 use lptn_network::{Bound, Item, Limit, LimitId, LimitSeverity, Network};
-use lptn_plot::figure::{Level, Panel};
+use lptn_plot::figure::{Curve, Level, Panel};
 use lptn_plot::printed;
 use lptn_report::{
-    Claim, Clock, Standing, TEMPERATURE, Text, TextTable, duration, rounded_up, significant,
+    Claim, Clock, Standing, TEMPERATURE, Text, TextTable, column_names, duration, rounded_up,
+    significant,
 };
 use lptn_study::SiValue;
 use lptn_units::{Dimension, Type, Unit};
@@ -145,12 +146,12 @@ pub fn mark(panels: &mut [Panel], network: &Network, unit: &Unit, fold: bool) ->
         let value = if of_temperatures { unit.from_si(value) } else { value };
         let name = if row.others.is_empty() { wanted(network, id, unit) } else { row.name };
         let level = Level { name: printed(&name), value };
-        let shows = |panel: &&mut Panel| {
-            let named = panel.curves.iter().any(|curve| curve.name == limit.text);
-            if of_temperatures { panel.y.name == TEMPERATURE } else { named }
-        };
-        match panels.iter_mut().find(shows) {
-            Some(panel) => panel.limits.push(level),
+        let is_own = |curve: &Curve| column_names(curve).any(|name| name == limit.text);
+        let own = panels.iter().position(|panel| panel.curves.iter().any(is_own));
+        let of_kind = || panels.iter().position(|panel| panel.y.name == TEMPERATURE);
+        let at = if of_temperatures { own.or_else(of_kind) } else { own };
+        match at {
+            Some(at) => panels[at].limits.push(level),
             None => left_out += 1,
         }
     }

@@ -43,6 +43,33 @@ fn a_family_is_one_row_with_its_worst_member() {
     run.prints("\nT [degC]     hottest     start").prints("\nrow[*].core  [24] of 24   25.0");
 }
 
+/// Parameters of 24 instances that the file gives once are one row of a report, in their range;
+/// sources of three families are three bands without the names of their lowest members.
+#[test]
+fn a_report_has_one_row_and_one_name_for_a_family() {
+    let folder = pack();
+    let text = folder.read("pack.toml");
+    let text = text.replace(
+        "param = { P = { unit = \"W\" } }",
+        "param = { P = { unit = \"W\" }, R = \"2 [K/W] + 0.01 [K/W] * index\" }",
+    );
+    let text = text.replace("R = \"2 K/W\"", "R = \"R\"");
+    let more = "fan = { into = \"core\", P = \"0.1 [W] * index\" }\nlamp = { into = \"core\", P = \"0.2 [W] * index\" }\n";
+    let text = text.replace("P = \"P\" }\n", &format!("P = \"P\" }}\n{more}"));
+    folder.write("pack.toml", &text);
+    folder.run(&["run", "pack.toml", "--no-files", "--report=page.html"]).exits(1);
+    let page = folder.read("page.html");
+    let rows = page.split("<h2>Parameters</h2>").nth(1).unwrap();
+    let row = rows.split("<tr>").find(|row| row.contains("row[*].R<")).unwrap();
+    assert!(row.contains("2.01 K/W to 2.24 K/W"), "{row}");
+    assert_eq!(rows.matches("2 [K/W] + 0.01 [K/W] * index").count(), 1, "{rows}");
+    for name in ["loss", "fan", "lamp"] {
+        assert!(page.contains(&format!("row[24].{name}.P, highest of 24")), "{name}");
+        assert!(!page.contains(&format!("{name}.P, lowest of 24")), "{name}");
+    }
+    assert!(page.contains("coldest of 24"));
+}
+
 /// All cells are too hot: 124 W through 0.05 K/W and 5 W through 2 K/W are 41.2 degC.
 #[test]
 fn a_verdict_names_the_worst_of_a_family_once() {

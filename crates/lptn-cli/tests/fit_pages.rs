@@ -10,7 +10,7 @@ use common::Folder;
 use serde_json::Value;
 
 /// Values of the charts of a page.
-fn charts(page: &str) -> Vec<Value> {
+pub fn charts(page: &str) -> Vec<Value> {
     let parts = page.split("<script type=\"application/json\">").skip(1);
     parts
         .map(|part| serde_json::from_str(part.split("</script>").next().unwrap()).unwrap())

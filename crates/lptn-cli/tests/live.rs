@@ -130,7 +130,8 @@ fn a_live_page_has_at_most_two_megabytes() {
     let folder = gearbox();
     if has_core() {
         let bytes = folder.read("live.html").len();
-        assert!(bytes <= 2_000_000, "{bytes} bytes");
+        // 2 MB are promised; the rest is for what will be added
+        assert!(bytes <= 1_950_000, "{bytes} bytes");
     }
 }
 

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use crate::common;
+use crate::fit_pages::charts;
 use crate::picture;
 
 use common::Folder;
@@ -140,4 +141,80 @@ fn a_cycle_has_300_rows() {
         .exits(0);
     let heat = Picture::read(&folder.read("x.svg")).lines(HEAT, "series0").remove(0);
     near(&at(&heat, 3.0), &[220.0, 0.0]);
+}
+
+/// A room whose time constant is 300 s / ln(21/20): 41 kW heat it from 20 to 21 degC in 5 min, and
+/// it cools back to 20 degC in 5 min. Rows are a day apart, each at the beginning of a cycle.
+const EACH_TEN_MINUTES: &str = "format = 1
+[node]
+room = { C = '6148.7802943 kJ/K', T0 = '20 degC' }
+[boundary]
+outside = { T = '0 degC' }
+[resistor]
+walls = { from = 'room', to = 'outside', G = '1 kW/K' }
+[control]
+thermostat = { sense = 'room', on_below = '20 degC', off_above = '21 degC', start = 'on' }
+[source]
+heater = { into = 'room', P = '41 [kW] * thermostat' }
+[run]
+stop = '365 d'
+output = { every = '1 d' }
+";
+
+/// Analytic: each day of the year has the mean 20.5 degC and half of 41 kW, the thermostat is on for
+/// half of it, and the room is between 20 and 21 degC. 105,120 switches are in no row.
+#[test]
+fn days_of_a_thermostat_have_the_means_of_the_solver() {
+    let folder = Folder::with("room.toml", EACH_TEN_MINUTES);
+    folder.run(&["run", "room.toml", "--no-files", "--report=page.html"]).exits(0);
+    let page = folder.read("page.html");
+    assert!(!page.contains("straight between rows"));
+    let panels = charts(&page).remove(0);
+    let expected = [("room", [20.5, 20.0, 21.0], 1e-3), ("heater.P", [20_500.0, 0.0, 41e3], 5.0)];
+    let expected = expected.into_iter().chain([("thermostat", [0.5, 0.0, 1.0], 1e-4)]);
+    for (name, [mean, low, high], error) in expected {
+        let mut curves = panels["panels"].as_array().unwrap().iter().flat_map(|panel| {
+            panel["curves"].as_array().unwrap().iter().filter(|curve| curve["name"] == name)
+        });
+        let curve = curves.next().unwrap();
+        for (key, expected) in [("y", mean), ("low", low), ("high", high)] {
+            let values = curve[key].as_array().unwrap();
+            assert_eq!(values.len(), 365, "{name}: {key}");
+            for value in values.iter().map(|value| value.as_f64().unwrap()) {
+                assert!((value - expected).abs() <= error, "{name}: {key} {value}");
+            }
+        }
+    }
+    folder.run(&["plot", "room.toml", "--daily", "--select", "*.P", "-o", "x.svg"]).exits(0);
+    let lines = Picture::read(&folder.read("x.svg")).lines(HEAT, "series0");
+    let heat = lines.iter().find(|line| line.len() == 365).unwrap();
+    assert!(heat.iter().all(|point| (point.1 - 20_500.0).abs() < 50.0));
+}
+
+/// A part of the year of 100,000 switches has all of its own, and its curve ends where it should:
+/// `T = 20 + t / 5 min` within 0.003 K, 2 min after the start of a cycle.
+#[test]
+fn a_part_of_many_switches_has_each_of_its_own() {
+    let folder = Folder::with("room.toml", EACH_TEN_MINUTES);
+    let part = ["--from", "200d", "--to", "4802.0333333333h", "-o", "x.svg"];
+    folder.run(&[&["plot", "room.toml"], &part[..]].concat()).exits(0);
+    let picture = Picture::read(&folder.read("x.svg"));
+    let switch = picture.lines("thermostat", "series0").remove(0);
+    let edges = switch.windows(2).filter(|pair| (pair[0].1 - pair[1].1).abs() > 0.5).count();
+    assert_eq!(edges, 24, "12 cycles: {switch:?}");
+    let room = picture.lines(TEMPERATURE, "series0").remove(0);
+    let last = room[room.len() - 1];
+    assert!((last.1 - 20.4).abs() < 0.03, "{last:?}");
+    let middle: Vec<f64> = room.iter().map(|point| point.1).collect();
+    assert!(middle.iter().all(|t| (19.95..=21.05).contains(t)) && room.len() > 300);
+}
+
+/// Rows alone know no more: the picture of an earlier run says so.
+#[test]
+fn days_of_rows_are_straight_between_them() {
+    let folder = Folder::with("room.toml", EACH_TEN_MINUTES);
+    folder.run(&["run", "room.toml", "--stop", "5d", "-o", "out"]).exits(0);
+    folder.run(&["plot", "out", "--daily", "-o", "x.svg"]).exits(0);
+    Picture::read(&folder.read("x.svg"))
+        .says("means of days, bands from the lowest to the highest value, straight between rows");
 }

@@ -4,6 +4,7 @@
 use crate::browser::probed;
 use crate::common;
 
+use common::browse::browsed;
 use common::{Folder, csv};
 use serde_json::Value;
 
@@ -213,6 +214,12 @@ fn a_fit_of_eight_records_is_read_from_its_answer() {
     let value: f64 = shown[1].strip_suffix(" uW/rpm^(5/3)").unwrap().parse().unwrap();
     assert!((value - alpha).abs() < 1e-3, "{value} is not {alpha}");
     assert_eq!(shown[2], "80 uW/rpm^(5/3)");
+    // values, residuals and records are on two screens of 1920 x 1200 pixels
+    let end = "Math.max(...[...document.querySelectorAll('.many figure')].map(figure => \
+               figure.getBoundingClientRect().bottom + scrollY))";
+    let Some(found) = browsed(&folder, &[("page.html", 1920)], end) else { return };
+    let end = found[0].as_f64().unwrap();
+    assert!(end <= 2.0 * 1200.0, "{end} pixels");
 }
 
 /// A plate between two boundaries, hot along one edge.
@@ -381,6 +388,42 @@ fn an_uncertain_run_begins_with_its_margins() {
     let air = curves.iter().find(|curve| curve["name"] == "air").unwrap();
     let half = (air["high"][3].as_f64().unwrap() - air["low"][3].as_f64().unwrap()) / 2.0;
     assert!((half - 1.959_963_984_540_054).abs() < 1e-9, "{half}");
+}
+
+/// Analytic: 100 W ± 10 W on 10 W/K are 10 K ± 1 K in each of four bodies. Their bands would cover
+/// each other: each has a picture, with 1.96 K on both sides at the end.
+#[test]
+fn analytic_bands_that_cover_each_other_have_a_picture_each() {
+    let (mut nodes, mut skins, mut heats) = (String::new(), String::new(), String::new());
+    for (i, name) in ["a", "b", "c", "d"].into_iter().enumerate() {
+        nodes += &format!("{name} = {{ C = '1.{i} kJ/K', T0 = '20 degC' }}\n");
+        skins += &format!("s{name} = {{ from = '{name}', to = 'air', G = '10 W/K' }}\n");
+        heats += &format!("p{name} = {{ into = '{name}', P = 'P' }}\n");
+    }
+    let text = format!(
+        "format = 1\n[param]\nP = '100 W ± 10 W'\n[node]\n{nodes}[boundary]\nair = {{ T = '20 degC' \
+         }}\n[resistor]\n{skins}[source]\n{heats}[limit]\nhot = {{ of = 'c.T', below = '35 degC' }}\n\
+         [run]\nstop = '1 h'\n"
+    );
+    let folder = Folder::with("four.toml", &text);
+    folder.run(&["run", "four.toml", "--uncertainty=linear", "--report=page.html"]).exits(0);
+    let page = folder.read("page.html");
+    let charts = charts(&page);
+    let of = |name: &str| {
+        let has = |chart: &&Value| chart["panels"][0]["curves"][0]["name"] == name;
+        charts.iter().find(has).unwrap()["panels"][0].clone()
+    };
+    for name in ["a", "b", "c", "d"] {
+        assert!(page.contains(&format!("<h2>{name}</h2>")), "no picture of {name}");
+        let panel = of(name);
+        assert_eq!(panel["curves"].as_array().unwrap().len(), 1);
+        let limits = usize::from(name == "c");
+        assert_eq!(panel["limits"].as_array().unwrap().len(), limits, "{name}");
+        let end =
+            |side: &str| panel["curves"][0][side].as_array().unwrap().last().unwrap().as_f64();
+        let half = (end("high").unwrap() - end("low").unwrap()) / 2.0;
+        assert!((half - 1.959_963_984_540_054).abs() < 1e-6, "{name}: {half}");
+    }
 }
 
 /// Each candidate of a sweep is a dot and a line, with its values as in the CSV.

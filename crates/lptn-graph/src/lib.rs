@@ -8,6 +8,7 @@
 
 mod direction;
 mod dot;
+mod exchange;
 mod field;
 mod groups;
 mod labels;

@@ -5,12 +5,13 @@ use std::fmt;
 
 use lptn_network::ConductorKind;
 use lptn_plot::font::width;
-use lptn_plot::scene::{Align, Stroke, Text, circle, line, rectangle};
+use lptn_plot::scene::{Align, Dash, Stroke, Text, circle, line, rectangle};
 use lptn_plot::{FIELD, Ink, Scene};
 use lptn_report::shortened;
 use lptn_units::Problem;
 
 use crate::direction;
+use crate::exchange::{Compact, Matrix};
 use crate::labels::{ARROW, ARROW_GAP, LETTERS, LINE, NAME, SMALL, VALUE, element_block};
 use crate::layout::{Arranged, Element, Point, Room, arrange};
 use crate::legend;
@@ -74,7 +75,8 @@ impl<'a> Laid<'a> {
         Self { diagram, ends: direction::ends(diagram), arranged: OnceCell::new() }
     }
 
-    /// The circuit as a drawing.
+    /// The circuit as a drawing. The paths between places that are all joined to each other are one
+    /// box, with a table below.
     ///
     /// # Errors
     /// [`TooMany`] for more than [`MOST_DRAWN`] boxes.
@@ -83,19 +85,46 @@ impl<'a> Laid<'a> {
         if diagram.places.len() > MOST_DRAWN {
             return Err(TooMany { boxes: diagram.places.len() });
         }
-        let arranged = self.arranged();
+        let Some(compact) = Compact::of(diagram) else {
+            return Ok(self.drawn((diagram, &self.ends, self.arranged()), &[]));
+        };
+        let drawn = &compact.diagram;
+        let ends = direction::ends(drawn);
+        let arranged = arranged(drawn, &ends, &supplies(drawn));
+        let table = |exchange| Matrix::of(diagram, exchange, &arranged);
+        let tables: Vec<Matrix<'_>> = compact.exchanges.iter().map(table).collect();
+        Ok(self.drawn((drawn, &ends, &arranged), &tables))
+    }
+
+    /// The circuit of `drawn`, which has a box for each of the tables below.
+    fn drawn(
+        &self,
+        (drawn, ends, arranged): (&Diagram, &[(usize, usize)], &Arranged),
+        tables: &[Matrix<'_>],
+    ) -> Scene {
+        let diagram = self.diagram;
         let head = if diagram.title.is_empty() { 0.0 } else { 30.0 };
         let legend = legend::legend(diagram);
         let wide = legend.width.max(width(&diagram.title, 16.0, true)).max(arranged.size.0);
-        let size = (wide + 2.0 * MARGIN, head + arranged.size.1 + legend.height + 2.0 * MARGIN);
+        let sizes: Vec<Point> = tables.iter().map(Matrix::size).collect();
+        let wide = sizes.iter().fold(wide, |wide, size| wide.max(size.0));
+        let below: f64 = sizes.iter().map(|size| size.1).sum();
+        let tall = head + arranged.size.1 + below + legend.height;
+        let size = (wide + 2.0 * MARGIN, tall + 2.0 * MARGIN);
         let mut scene = Scene::new((size.0.ceil(), size.1.ceil()), diagram.title.clone());
         let title = Text::new(diagram.title.clone(), (MARGIN, MARGIN + 12.0), 16.0, Ink::Text);
         scene.write(title.bold());
         let corner = (MARGIN + (wide - arranged.size.0) / 2.0, MARGIN + head);
-        let mut drawing = Drawing { diagram, scene: &mut scene, corner };
-        drawing.draw(arranged, (&self.ends, &supplies(diagram)));
+        let boxes = drawn.places.len() - tables.len();
+        let mut drawing = Drawing { diagram: drawn, scene: &mut scene, corner, boxes };
+        drawing.draw(arranged, (ends, &supplies(drawn)));
+        let mut at = corner.1 + arranged.size.1;
+        for (table, size) in tables.iter().zip(&sizes) {
+            table.draw(&mut scene, (MARGIN + (wide - size.0) / 2.0, at));
+            at += size.1;
+        }
         legend::draw(&mut scene, diagram, (MARGIN, size.1 - MARGIN - legend.height));
-        Ok(scene)
+        scene
     }
 
     /// The positions of everything: the order of places is that of every picture of the network.
@@ -162,7 +191,8 @@ fn place_block(diagram: &Diagram, place: &Place) -> Room {
 fn below_link(link: &Link) -> Vec<String> {
     let kind = (link.kind != ConductorKind::Resistor).then(|| link.kind.declaration().section);
     let unknown = || kind.is_none().then(|| "not constant".to_owned());
-    link.value.clone().or_else(unknown).into_iter().chain(kind.map(str::to_owned)).collect()
+    let value = link.value.clone().or_else(unknown).filter(|text| !text.is_empty());
+    value.into_iter().chain(kind.map(str::to_owned)).collect()
 }
 
 fn link_block(link: &Link, scales: Option<&Scales>) -> Room {
@@ -176,6 +206,8 @@ struct Drawing<'a> {
     diagram: &'a Diagram,
     scene: &'a mut Scene,
     corner: Point,
+    /// The places from here on are boxes for the paths of a table.
+    boxes: usize,
 }
 
 impl Drawing<'_> {
@@ -205,8 +237,8 @@ impl Drawing<'_> {
         for (all, at) in supplies.iter().zip(sources) {
             all.draw(self.scene, moved(*at), self.diagram.scales.as_ref());
         }
-        for (place, at) in self.diagram.places.iter().zip(&arranged.places) {
-            self.place(place, moved(*at));
+        for (i, (place, at)) in self.diagram.places.iter().zip(&arranged.places).enumerate() {
+            self.place((place, i >= self.boxes), moved(*at));
         }
     }
 
@@ -259,7 +291,8 @@ impl Drawing<'_> {
         self.scene.write(Text::new(text, at, VALUE, Ink::Text).bold());
     }
 
-    fn place(&mut self, place: &Place, (x, y): Point) {
+    /// A place, or the box of a table.
+    fn place(&mut self, (place, is_box): (&Place, bool), (x, y): Point) {
         let (half, tall) = half_box(self.diagram, place);
         let ink = self.diagram.scales.as_ref().zip(place.kelvin).map(|(scales, kelvin)| {
             Ink::Field((scales.share(kelvin) * (FIELD - 1) as f64).round() as usize)
@@ -276,6 +309,7 @@ impl Drawing<'_> {
         let frame = rectangle(corner, size, radius).tipped(tip);
         self.scene.put(match ink {
             Some(ink) => frame.filled(ink, 0.3).stroked(Stroke::solid(ink, 3.0)),
+            None if is_box => frame.stroked(Stroke { dash: Dash::Dashed, ..symbols::pen() }),
             None => frame.filled(Ink::Grid, 0.5).stroked(symbols::pen()),
         });
         if let Some(series) = place.series {

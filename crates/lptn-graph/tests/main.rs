@@ -8,6 +8,7 @@
 )]
 
 mod common;
+mod exchange;
 mod pictures;
 mod quality;
 mod sankey;

@@ -22,8 +22,7 @@ const work = () => {
     return call("lptn_open", contents);
   };
   const begin = async data => {
-    const packed = Uint8Array.from(atob(data.core), letter => letter.charCodeAt(0));
-    compiled = await WebAssembly.compile(unlzma(packed));
+    compiled = await WebAssembly.compile(unlzma(bytesOf(data.core)));
     contents = data.contents;
     return start();
   };
@@ -213,7 +212,7 @@ panel.querySelector("button").addEventListener("click", () => {
   ask();
 });
 
-const source = new Blob(["const unlzma = " + unlzma + ";\n(" + work + ")()"], { type: "text/javascript" });
+const source = new Blob(["const unlzma = " + unlzma + ", bytesOf = " + bytesOf + ";\n(" + work + ")()"], { type: "text/javascript" });
 const worker = new Worker(URL.createObjectURL(source));
 worker.addEventListener("error", event => { state.textContent = "The solver did not start: " + event.message; });
 worker.addEventListener("message", ({ data: { answer, took, fault } }) => {

@@ -148,3 +148,17 @@ const unlzma = packed => {
   }
   return out.subarray(0, size);
 };
+
+// The bytes that are written as five letters for four (src/base85.rs).
+const bytesOf = text => {
+  const values = new Uint8Array(128);
+  let count = 0;
+  for (let code = 33; code < 127; code++) if (!"\"$&'<>\\`~".includes(String.fromCharCode(code))) values[code] = count++;
+  const bytes = new Uint8Array(text.length - Math.ceil(text.length / 5));
+  for (let from = 0, to = 0; from < text.length; from += 5) {
+    let number = 0;
+    for (let i = 0; i < 5; i++) number = number * 85 + (from + i < text.length ? values[text.charCodeAt(from + i)] : 84);
+    for (let shift = 24; shift >= 0 && to < bytes.length; shift -= 8) bytes[to++] = number >>> shift;
+  }
+  return bytes;
+};

@@ -9,8 +9,9 @@ use serde_json::{Value, json};
 use crate::script;
 use crate::text::coded;
 
-/// Width of a picture in CSS pixels.
+/// Width of a picture in CSS pixels, and of a small one, of which two are side by side in print.
 const WIDTH: f64 = 760.0;
+const SMALL_WIDTH: f64 = 460.0;
 
 /// Writes a figure. Its curves can be zoomed if no axis has names, all lines go to the right, and
 /// no point has a tooltip, which only the picture shows.
@@ -35,7 +36,8 @@ pub(crate) fn write(out: &mut String, figure: &Figure) {
 /// The picture of its panels.
 pub(crate) fn picture(figure: &Figure) -> String {
     let still = Figure { title: String::new(), note: String::new(), panels: figure.panels.clone() };
-    svg::write(&scene(&[still], WIDTH))
+    let width = if figure.is_small() { SMALL_WIDTH } else { WIDTH };
+    svg::write(&scene(&[still], width))
 }
 
 /// The values of a figure whose curves can be zoomed.

@@ -7,7 +7,7 @@
 
 use serde_json::Value;
 
-use crate::base64::base64;
+use crate::base85::base85;
 use crate::script;
 
 /// Script of the panel, after the function that unpacks the core.
@@ -40,7 +40,7 @@ pub(crate) const PANEL: &str = "<section class=\"tune\">\n<h2>Change parameters<
 
 /// The data of the script.
 pub(crate) fn data(live: &Live<'_>) -> String {
-    let (contents, core) = (script::json(live.contents), base64(live.core));
+    let (contents, core) = (script::json(live.contents), base85(live.core));
     format!(
         "<script type=\"application/json\" id=\"contents\">{contents}</script>\n\
          <script type=\"application/x-lzma\" id=\"core\">{core}</script>\n"

@@ -8,7 +8,7 @@ const SCRIPTS: [&str; 2] = [
 ];
 
 /// Hash of the script of live pages.
-const LIVE: &str = "sha256-5HJv7aFOwqgQkhTipzS6Z2ptlvPadFRHOj6xjLT/o/k=";
+const LIVE: &str = "sha256-eWkw5Uv82fMxM1XDMyrPY8cneA/zOfUTbRj+KD/v02w=";
 
 /// The policy: nothing is loaded from anywhere. A live page may compile its core, in a worker whose
 /// script is in the page.

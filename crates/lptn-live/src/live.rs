@@ -11,7 +11,7 @@ use lptn_answer::failure::Failure;
 use lptn_answer::input::{Given, Input};
 use lptn_answer::listener::Nobody;
 use lptn_answer::lumping::Detail;
-use lptn_answer::run::{RunAnswer, RunQuestion};
+use lptn_answer::run::{RunAnswer, RunQuestion, View};
 use lptn_answer::steady::{SteadyAnswer, SteadyQuestion};
 use lptn_html::{claims, figures, results};
 use lptn_netlist::{Diagnostic, parse_with};
@@ -51,6 +51,7 @@ impl Live {
             time_unit: TimeUnit::ALL.into_iter().find(|known| Some(known.symbol()) == unit),
             balance,
             picture: true,
+            view: View::of_page(),
             detail: detail(&contents["detail"]),
             ..RunQuestion::default()
         };

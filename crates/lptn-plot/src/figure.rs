@@ -68,6 +68,8 @@ pub struct Curve {
     pub spread: Vec<(f64, f64)>,
     /// Tooltip of each point, of a line that of the whole; empty for the name of the curve.
     pub tips: Vec<String>,
+    /// Its days, if they are known better than from its points.
+    pub days: Vec<Day>,
     /// Its style.
     pub look: Look,
     /// True if it does not set the scale if it is far from all others, as empty space is.
@@ -75,6 +77,19 @@ pub struct Curve {
     /// The place whose ink it has, if not its own: for the same thing in another panel, or for a
     /// measured and a computed curve.
     pub place: Option<usize>,
+}
+
+/// A curve over a day, or over a part of one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Day {
+    /// Its start in s.
+    pub from: f64,
+    /// Its end in s.
+    pub to: f64,
+    /// The mean over time.
+    pub mean: f64,
+    /// The least and the largest value.
+    pub range: (f64, f64),
 }
 
 /// The style of a curve.
@@ -170,8 +185,16 @@ impl Panel {
 impl Curve {
     /// A line through points.
     pub fn line(name: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
-        let (spread, tips, look, aside, place) = (Vec::new(), Vec::new(), Look::Line, false, None);
-        Self { name: name.into(), points, spread, tips, look, aside, place }
+        Self {
+            name: name.into(),
+            points,
+            spread: Vec::new(),
+            tips: Vec::new(),
+            days: Vec::new(),
+            look: Look::Line,
+            aside: false,
+            place: None,
+        }
     }
 
     /// Sets how the curve is drawn.

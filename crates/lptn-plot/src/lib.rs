@@ -28,3 +28,4 @@ pub use png::PngError;
 pub use scene::Scene;
 pub use thin::thinned;
 pub use ticks::{printed, round_marks};
+pub use views::LONG;

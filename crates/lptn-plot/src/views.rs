@@ -1,12 +1,19 @@
 //! Other views of figures over time: a part of the time, and days instead of hours.
 
-use crate::figure::{Curve, Figure, Look, Panel, Scale};
+use crate::figure::{Curve, Day, Figure, Look, Panel, Scale};
+use crate::thin::thinned;
 
 /// A day in s.
 const DAY: f64 = 86_400.0;
 
-/// A time in s in which days can no longer be distinguished, and the values of a day that are many.
-const LONG: f64 = 60.0 * DAY;
+/// A time in s in which days can no longer be distinguished.
+pub const LONG: f64 = 60.0 * DAY;
+
+/// A line of more points than this is thinned on a page, to four in each of these stretches.
+const MOST_POINTS: usize = 20_000;
+const STRETCHES: usize = 4000;
+
+/// The values of a day that are many.
 const MANY: f64 = 4.0;
 
 impl Figure {
@@ -23,20 +30,23 @@ impl Figure {
     }
 
     /// The mean of each day, with a band from the lowest to the highest value of the day. Days
-    /// begin at multiples of 24 h. Dots and bands of lines stay as they are.
+    /// begin at multiples of 24 h. A curve that does not know its [days](Curve::days) is straight
+    /// between its points. Dots and bands of lines stay as they are.
     #[must_use]
     pub fn daily(mut self) -> Self {
+        let mut straight = false;
         for panel in self.panels.iter_mut().filter(|panel| panel.x.scale == Scale::Time) {
             panel.moments.clear();
             let lines = |curve: &&mut Curve| curve.look != Look::Dots && curve.spread.is_empty();
-            panel.curves.iter_mut().filter(lines).for_each(by_day);
+            for curve in panel.curves.iter_mut().filter(lines) {
+                straight |= curve.days.is_empty();
+                by_day(curve);
+            }
         }
-        self.note =
-            [self.note.as_str(), "means of days, bands from the lowest to the highest value"]
-                .into_iter()
-                .filter(|text| !text.is_empty())
-                .collect::<Vec<_>>()
-                .join("\n");
+        let between = if straight { ", straight between rows" } else { "" };
+        let days = format!("means of days, bands from the lowest to the highest value{between}");
+        let notes = [self.note, days].into_iter().filter(|text| !text.is_empty());
+        self.note = notes.collect::<Vec<_>>().join("\n");
         self
     }
 
@@ -55,6 +65,34 @@ impl Figure {
             time > LONG && curve.points.len() as f64 > MANY * time / DAY
         };
         if lines.any(is_dense) { self.daily() } else { self }
+    }
+
+    /// Each small panel as a figure, named by its first curve, before the figure of the others.
+    #[must_use]
+    pub fn apart(mut self) -> Vec<Self> {
+        let (small, others): (Vec<_>, Vec<_>) =
+            self.panels.into_iter().partition(|panel| panel.small);
+        let name = |panel: &Panel| panel.curves.first().map_or(String::new(), |c| c.name.clone());
+        let one = |panel| Self { title: name(&panel), note: String::new(), panels: vec![panel] };
+        let mut figures: Vec<Self> = small.into_iter().map(one).collect();
+        self.panels = others;
+        if let (Some(first), true) = (figures.first_mut(), self.panels.is_empty()) {
+            first.note = std::mem::take(&mut self.note);
+        }
+        figures.into_iter().chain([self]).collect()
+    }
+
+    /// Lines of very many points thinned, with the lowest and the highest value of each stretch:
+    /// no screen shows the difference, and a page can be sent.
+    #[must_use]
+    pub fn light(mut self) -> Self {
+        let curves = self.panels.iter_mut().flat_map(|panel| &mut panel.curves);
+        for curve in curves.filter(|curve| curve.look == Look::Line && curve.spread.is_empty()) {
+            if curve.points.len() > MOST_POINTS && curve.points.is_sorted_by(|a, b| a.0 <= b.0) {
+                curve.points = thinned(&curve.points, STRETCHES);
+            }
+        }
+        self
     }
 
     /// Multiplies the values of a unit and gives them another one.
@@ -76,6 +114,10 @@ fn scale(panel: &mut Panel, factor: f64) {
             .spread
             .iter_mut()
             .for_each(|(low, high)| (*low, *high) = (*low * factor, *high * factor));
+        for day in &mut curve.days {
+            let (low, high) = day.range;
+            (day.mean, day.range) = (day.mean * factor, (low * factor, high * factor));
+        }
     }
 }
 
@@ -86,6 +128,7 @@ fn between((a, b): ((f64, f64), (f64, f64)), at: f64) -> f64 {
 
 /// Keeps the part of a curve between two times.
 fn cut(curve: &mut Curve, (from, to): (f64, f64)) {
+    curve.days.retain(|day| day.from >= from && day.to <= to);
     let times: Vec<f64> = curve.points.iter().map(|point| point.0).collect();
     let ends = if curve.look == Look::Dots { Vec::new() } else { vec![from, to] };
     let along = |values: &[f64]| -> Vec<(f64, f64)> {
@@ -112,6 +155,12 @@ fn cut(curve: &mut Curve, (from, to): (f64, f64)) {
 
 /// Mean, lowest and highest value of a line in each day.
 fn by_day(curve: &mut Curve) {
+    curve.aside = false;
+    if !curve.days.is_empty() {
+        let day = |day: &Day| ((f64::midpoint(day.from, day.to), day.mean), day.range);
+        (curve.points, curve.spread) = curve.days.iter().map(day).unzip();
+        return;
+    }
     let (Some(first), Some(last)) = (curve.points.first(), curve.points.last()) else { return };
     let (start, stop) = ((first.0 / DAY).floor(), last.0);
     let mut days: Vec<((f64, f64), (f64, f64))> = Vec::new();
@@ -127,7 +176,6 @@ fn by_day(curve: &mut Curve) {
         day += 1.0;
     }
     (curve.points, curve.spread) = days.into_iter().unzip();
-    curve.aside = false;
 }
 
 /// The middle and the mean of a line over a day, and its extremes.
@@ -144,7 +192,7 @@ fn of_day(points: &[(f64, f64)]) -> Option<((f64, f64), (f64, f64))> {
 
 #[cfg(test)]
 mod tests {
-    use crate::figure::{Axis, Curve, Figure, Panel};
+    use crate::figure::{Axis, Curve, Day, Figure, Panel};
 
     fn figure(points: Vec<(f64, f64)>) -> Figure {
         let mut panel = Panel::new(Axis::time(), Axis::linear("heat", "J"));
@@ -167,6 +215,53 @@ mod tests {
         let curve = &days.panels[0].curves[0];
         assert_eq!(curve.points, [(0.5 * day, 12.0), (1.5 * day, 24.0)]);
         assert_eq!(curve.spread, [(0.0, 24.0), (24.0, 24.0)]);
+    }
+
+    /// Days that are known better than by the points of a curve stay as they are; a part has the
+    /// whole ones in it, and 3.6 MJ are 1 kWh.
+    #[test]
+    fn known_days_are_drawn() {
+        let day = 86_400.0;
+        let mut known = figure(vec![(0.0, 0.0), (2.0 * day, 0.0)]);
+        let of =
+            |from: f64, mean: f64| Day { from, to: from + day, mean, range: (0.0, 2.0 * mean) };
+        known.panels[0].curves[0].days = vec![of(0.0, 3.6e6), of(day, 7.2e6)];
+        let part = known.clone().between((0.5 * day, 2.0 * day)).in_unit("J", ("kWh", 1.0 / 3.6e6));
+        let (all, part) = (known.daily(), part.daily());
+        assert_eq!(all.panels[0].curves[0].points, [(0.5 * day, 3.6e6), (1.5 * day, 7.2e6)]);
+        let part = &part.panels[0].curves[0];
+        let ([(at, mean)], [(low, high)]) = (&part.points[..], &part.spread[..]) else {
+            panic!("{part:?}")
+        };
+        assert!((at - 1.5 * day).abs() < 1e-6 && (mean - 2.0).abs() < 1e-12, "{part:?}");
+        assert!(low.abs() < 1e-12 && (high - 4.0).abs() < 1e-12, "{part:?}");
+        assert!(!all.note.contains("rows"), "{}", all.note);
+    }
+
+    /// A peak of one point among 100,000 stays, and no line of 20,000 points is touched.
+    #[test]
+    fn a_light_line_keeps_its_peaks() {
+        let line = |count: u32| -> Vec<(f64, f64)> {
+            (0..count).map(|i| (f64::from(i), if i == 777 { 9.0 } else { 0.0 })).collect()
+        };
+        let light = figure(line(100_000)).light();
+        let points = &light.panels[0].curves[0].points;
+        assert!(points.len() <= 16_000 && points.contains(&(777.0, 9.0)), "{}", points.len());
+        assert_eq!(figure(line(20_000)).light(), figure(line(20_000)));
+    }
+
+    /// Small panels are figures with the names of their curves; the others stay together.
+    #[test]
+    fn small_panels_are_figures_of_their_own() {
+        let mut of = figure(vec![(0.0, 1.0)]);
+        of.note = "note".into();
+        let small = Panel { small: true, ..of.panels[0].clone() };
+        of.panels.insert(0, small);
+        let apart = of.clone().apart();
+        let told: Vec<(&str, &str)> = apart.iter().map(|f| (&*f.title, &*f.note)).collect();
+        assert_eq!(told, [("a", ""), ("", "note")]);
+        of.panels.truncate(1);
+        assert_eq!(of.apart()[0].note, "note");
     }
 
     /// Hours of 61 days are shown as days, those of 59 are not, and neither are weeks.

@@ -11,6 +11,9 @@ use crate::number::rounded_up;
 /// Most curves that can be distinguished in one panel.
 pub const MOST_CURVES: usize = 12;
 
+/// This many families in a panel, unless of temperatures, are bands with their highest members only.
+const SEVERAL: usize = 3;
+
 /// Name of the axis of temperatures.
 pub const TEMPERATURE: &str = "temperature";
 
@@ -40,7 +43,11 @@ pub fn panels(table: &Table, fold: bool) -> (Vec<Panel>, usize) {
         left_out += single.len() - shown.len();
         let name = key.0.name().unwrap_or(if all.len() == 1 { &column.name } else { "" });
         let mut panel = Panel::new(across(first), Axis::linear(name, key.1));
-        panel.curves.extend(bands.iter().flat_map(|members| band(first, members, key.0)));
+        // with several families, the name of the lowest member of each would fill the legend
+        let ends = if key.0 == Quantity::Temperature || bands.len() < SEVERAL { 2 } else { 1 };
+        let bands =
+            bands.iter().flat_map(|members| band(first, members, key.0).into_iter().take(ends));
+        panel.curves.extend(bands);
         let proven = |column: &Column| within(curve(first, column), column, columns);
         shown.into_iter().for_each(|column| add(&mut panel.curves, proven(column)));
         panels.push(panel);
@@ -140,6 +147,12 @@ fn curve(first: &Column, column: &Column) -> Curve {
     let is_constant = column.values.windows(2).all(|pair| pair[0].to_bits() == pair[1].to_bits());
     let aside = is_constant && Quantity::of(column) == Quantity::Temperature;
     Curve { aside, ..Curve::line(name, points) }
+}
+
+/// The names that the column of a curve of a run may have, and whose columns do not differ.
+pub fn column_names(curve: &Curve) -> impl Iterator<Item = String> + '_ {
+    let name = curve.name.split(", ").next().unwrap_or_default();
+    [format!("{name}.T"), name.to_owned()].into_iter()
 }
 
 /// The members of each large family, and the other columns.

@@ -27,7 +27,7 @@ mod text;
 
 pub use clock::{Clock, TimeUnit};
 pub use colour::{Look, WIDTH};
-pub use columns::{MOST_CURVES, TEMPERATURE, bound_of, panels, proven_caption};
+pub use columns::{MOST_CURVES, TEMPERATURE, bound_of, column_names, panels, proven_caption};
 pub use csv::{CsvLines, write_csv, write_rows};
 pub use families::{MORE_MEMBERS, family};
 pub use format::{Format, write};

@@ -21,7 +21,7 @@ pub fn with_results(text: &Text, figures: Vec<Figure>, report: Report) -> Report
     let text = report.results.take().unwrap_or(text);
     let mut own: Vec<Section> = std::mem::take(&mut report.answer);
     for figure in figures.into_iter().filter(|figure| !figure.panels.is_empty()) {
-        let mut figure = figure.legible();
+        let mut figure = figure.legible().light();
         if figure.title == report.title {
             figure.title = String::new();
         }

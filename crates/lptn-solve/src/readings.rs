@@ -9,6 +9,7 @@ use lptn_network::{Curve, InputError, Item, Network, same_time};
 use crate::cells::{Stretch, stretches};
 use crate::limit::of_moments;
 use crate::quantity::Quantity;
+use crate::selection::Selection;
 use crate::times::{Segment, segments, snap};
 use crate::window::Window;
 
@@ -22,20 +23,23 @@ pub(crate) struct Readings {
     pub(crate) limits: Vec<f64>,
     /// Times at which evaluations of windows restart, in s.
     pub(crate) windows: Vec<f64>,
+    /// Times at which evaluations of days restart, in s.
+    pub(crate) days: Vec<f64>,
 }
 
 impl Readings {
     /// For a run whose results no one reads.
     pub(crate) fn none(segment: Segment) -> Self {
-        Self { ends: vec![segment.from, segment.to], limits: Vec::new(), windows: Vec::new() }
+        let [limits, windows, days] = <[Vec<f64>; 3]>::default();
+        Self { ends: vec![segment.from, segment.to], limits, windows, days }
     }
 
-    /// For a run of these segments and rows, with these windows.
+    /// For a run of these segments and rows, with these windows and the days of these columns.
     pub(crate) fn new(
         network: &Network,
         driving: &[Segment],
         rows: &[f64],
-        windows: &[Window],
+        (windows, days): (&[Window], Option<&Selection>),
     ) -> Result<Self, InputError> {
         let (start, stop) = (driving[0].from, driving[driving.len() - 1].to);
         let all = Around { network, span: (start, stop), rows, known: &[] };
@@ -44,12 +48,10 @@ impl Readings {
         let own = Around { known: &inner, ..all };
         let limits: Vec<Item> = of_moments(network).map(Item::Limit).collect();
         let limits = own.looks(&limits)?;
-        let mut of_windows: Vec<Item> = windows.iter().flat_map(items_of).collect();
-        of_windows.sort_unstable();
-        of_windows.dedup();
-        let windows = own.looks(&of_windows)?;
+        let windows = own.looks(&items_of(windows.iter().map(|window| &window.of)))?;
+        let days = own.looks(&items_of(days.into_iter()))?;
         let ends = [start].into_iter().chain(inner).chain([stop]).collect();
-        Ok(Self { ends, limits, windows })
+        Ok(Self { ends, limits, windows, days })
     }
 
     /// The times between start and stop at which inputs or results may bend or jump, in s.
@@ -101,14 +103,20 @@ fn nearest(times: &[f64], time: f64) -> Option<f64> {
     near.copied().min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()))
 }
 
-/// Items of a window whose breakpoints the heat flows do not have.
-fn items_of(window: &Window) -> impl Iterator<Item = Item> + '_ {
-    window.of.quantities().iter().filter_map(|quantity| match *quantity {
-        Quantity::Report(id) => Some(Item::Report(id)),
-        Quantity::Signal(id) => Some(Item::Signal(id)),
-        Quantity::Side(id, _) => Some(Item::Limit(id)),
-        _ => None,
-    })
+/// Items of columns whose breakpoints the heat flows do not have.
+fn items_of<'a>(columns: impl Iterator<Item = &'a Selection>) -> Vec<Item> {
+    let quantities = columns.flat_map(Selection::quantities);
+    let mut items: Vec<Item> = quantities
+        .filter_map(|quantity| match *quantity {
+            Quantity::Report(id) => Some(Item::Report(id)),
+            Quantity::Signal(id) => Some(Item::Signal(id)),
+            Quantity::Side(id, _) => Some(Item::Limit(id)),
+            _ => None,
+        })
+        .collect();
+    items.sort_unstable();
+    items.dedup();
+    items
 }
 
 /// A run in which results are evaluated.

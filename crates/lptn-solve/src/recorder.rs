@@ -1,5 +1,6 @@
 //! Writes rows while a run goes on, and evaluates the watched nodes.
 
+mod days;
 mod jump;
 mod look;
 mod lookout;
@@ -41,6 +42,7 @@ use crate::tracked::Tracked;
 use crate::unfold::Unfold;
 use crate::unsolved::Unsolved;
 
+pub(crate) use days::Days;
 pub(crate) use jump::Jumps;
 
 /// Writes the state at a time inside the present step.
@@ -76,6 +78,8 @@ pub(crate) struct Recorder<'a> {
     windows: Vec<Tracked>,
     /// The columns on both sides of jumps; `None` if no picture needs them.
     jumps: Option<Jumps>,
+    /// `None` if no picture needs days.
+    days: Option<Days>,
     /// A time of the present step at which something may switch, in s.
     edge: f64,
     reading: Reading<'a>,
@@ -131,7 +135,8 @@ impl<'a> Recorder<'a> {
             limits: LimitWatch::new(system),
             ranges: RangeWatch::new(system),
             windows: windows.collect(),
-            jumps: settings.jumps.clone().map(Jumps::new),
+            jumps: settings.drawn.clone().map(|drawn| Jumps::new(drawn, (start, stop))),
+            days: settings.drawn.as_ref().and_then(|d| Days::new(d, (start, stop), network)),
             edge: f64::INFINITY,
             reading: Reading::new(system),
             state: vec![0.0; system.states().len()],
@@ -198,6 +203,7 @@ impl<'a> Recorder<'a> {
     pub(crate) fn enter(&mut self, segment: Segment, positions: Option<&Positions>) {
         self.segment = segment;
         self.windows.iter_mut().for_each(Tracked::jump);
+        self.days.iter_mut().for_each(Days::jump);
         self.unfold.may_leap();
         if let Some(positions) = positions {
             self.work.set_positions(positions);
@@ -376,6 +382,7 @@ impl<'a> Recorder<'a> {
             temperatures: self.temperatures,
             columns: self.columns,
             jumps: self.jumps.and_then(Jumps::into_sides),
+            days: self.days.map_or_else(Vec::new, Days::into_past),
             extremes: self.extremes,
             looks: Looks { placed: self.placed, sought: self.lookout.sought() },
             seen: self.lookout.into_seen(),

@@ -7,6 +7,7 @@ use lptn_network::{
 };
 
 use crate::curved::Curved;
+use crate::drawn::Drawn;
 use crate::events::ControlState;
 use crate::growth;
 use crate::selection::{RecordedNodes, Selection};
@@ -39,9 +40,9 @@ pub struct Transient {
     pub hottest_only: bool,
     /// Windows of time over which means and extremes are taken; inside the run.
     pub windows: Vec<Window>,
-    /// Columns that are read on both sides of each known jump, bend and switch too, for pictures:
-    /// see [`crate::Table::with_jumps`]. The rows do not depend on it.
-    pub jumps: Option<Selection>,
+    /// The columns of a picture, which are read on both sides of each known jump, bend and switch
+    /// too: see [`crate::Table::with_jumps`].
+    pub drawn: Option<Drawn>,
     /// The node or boundary whose heat balance is computed.
     pub balance: Option<End>,
     /// States of the controls at the start, in the order of their ids; default: those of the
@@ -109,7 +110,7 @@ impl Transient {
             watch: Vec::new(),
             hottest_only: false,
             windows: Vec::new(),
-            jumps: None,
+            drawn: None,
             balance: None,
             controls: Vec::new(),
             sensitivities: Vec::new(),

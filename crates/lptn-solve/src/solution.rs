@@ -14,6 +14,7 @@ use crate::balance::Balance;
 use crate::certify::{Certificate, Uncertified};
 use crate::columns::Columns;
 use crate::curved::MOST_REMEMBERED;
+use crate::drawn::Day;
 use crate::events::{ControlState, Event, EventKind, Undecided};
 use crate::extremes::Extremes;
 use crate::growth::TELLING;
@@ -69,6 +70,8 @@ pub struct Solution {
     pub(crate) columns: Columns,
     /// Selected columns on both sides of jumps: time in s, and values in SI units.
     pub(crate) jumps: Option<Vec<(f64, Vec<f64>)>>,
+    /// The days of the same columns, in order.
+    pub(crate) days: Vec<Day>,
     pub(crate) extremes: Extremes,
     pub(crate) seen: Vec<Watched>,
     pub(crate) looks: Looks,
@@ -110,9 +113,9 @@ impl Solution {
         self.method
     }
 
-    /// True if the columns are known on both sides of all jumps: see [`Transient::jumps`].
+    /// True if the columns are known on both sides of all jumps: see [`Transient::drawn`].
     ///
-    /// [`Transient::jumps`]: crate::Transient::jumps
+    /// [`Transient::drawn`]: crate::Transient::drawn
     pub fn knows_jumps(&self) -> bool {
         self.jumps.is_some()
     }

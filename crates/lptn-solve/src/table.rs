@@ -132,7 +132,7 @@ impl Table {
     }
 
     /// The table of a run with further rows on both sides of its jumps, bends and switches, if
-    /// they are known. `selection` is that of [`crate::Transient::jumps`].
+    /// they are known. `selection` is that of [`crate::Transient::drawn`].
     #[must_use]
     pub fn with_jumps(mut self, solution: &Solution, selection: &Selection, unit: &Unit) -> Self {
         let Some(sides) = solution.jumps.as_ref().filter(|sides| !sides.is_empty()) else {

@@ -3,6 +3,7 @@
 use lptn_network::{Bends, Evaluation, Item, Network, ReportId};
 use lptn_units::Type;
 
+use crate::drawn::Day;
 use crate::interval::{Interval, POINTS};
 use crate::quadrature::Quadrature;
 use crate::quantity::{Quantity, Shown};
@@ -104,6 +105,15 @@ impl Tracked {
         })?;
         self.reached = to;
         Ok(())
+    }
+
+    /// Mean and extremes of its columns as a day; `None` if the run did not reach it.
+    pub(crate) fn into_day(self) -> Option<Day> {
+        let (from, to) = (self.window.from, self.reached);
+        let extremes = self.min.iter().zip(&self.max);
+        let values = self.sums.integral.iter().zip(extremes);
+        let values = values.map(|(sum, (min, max))| [sum / (to - from), min.0, max.0]).collect();
+        (to > from).then_some(Day { from, to, values })
     }
 
     /// The results; `None` if the run did not reach the window.

@@ -122,8 +122,9 @@ impl Transient {
         let curved = Curved::of(system, &segments, &rows);
         let of_limits = limit::window(network, (self.start, self.stop));
         let windows: Vec<Window> = self.windows.iter().cloned().chain(of_limits).collect();
-        let readings =
-            Readings::new(network, &segments, &rows, &windows).map_err(TransientError::Input)?;
+        let days = self.drawn.as_ref().filter(|drawn| drawn.days).map(|drawn| &drawn.of);
+        let readings = Readings::new(network, &segments, &rows, (&windows, days))
+            .map_err(TransientError::Input)?;
         let recorder = Recorder::new(system, (rows, readings), self)?;
         if system.states().is_empty() {
             let solution = stateless::solve(recorder, &segments, &self.books(network))?;

@@ -13,7 +13,7 @@ use super::{CompareAnswer, page};
 use crate::input::Input;
 use crate::listener::Nobody;
 use crate::plot::{Source, overlay};
-use crate::run::RunQuestion;
+use crate::run::{RunQuestion, View};
 use crate::words::{count, difference};
 
 /// Most candidates whose curves are over each other.
@@ -90,6 +90,8 @@ impl CompareAnswer {
             select: vec![format!("{node}.T")],
             temperature_unit: Some(self.unit.text.clone()),
             format: Format::Csv,
+            picture: true,
+            view: View::of_page(),
             ..RunQuestion::default()
         };
         let path = PathBuf::from(&input.text.name);

@@ -23,7 +23,7 @@ use crate::input::{self, Input};
 use crate::listener::{Listener, Stopwatch, timed};
 use crate::lumping::Detail;
 use crate::refused::{explain, unanswered};
-use crate::run::{NoSteady, RunAnswer, RunTask, record};
+use crate::run::{NoSteady, RunAnswer, RunTask, View, record};
 use crate::{balance, period, proven, scale, select, trust};
 
 /// The name of the window over the cycle.
@@ -100,6 +100,7 @@ impl CycleQuestion {
             at: Vec::new(),
             report: self.report,
             picture: true,
+            view: View::of_page(),
             detail: self.detail,
             uncertainty: None,
             certify: self.certify,
@@ -169,7 +170,7 @@ fn find(
     let cycle = RunAnalysis::of(system.network(), &task.settings)
         .keeping(record(system.network(), &task.selection))
         .over(vec![window])
-        .drawing(task.selection.clone())
+        .drawing(task.drawn())
         .balancing(task.balance);
     let cycle = match task.certify {
         true => cycle.certified(task.selection.clone()),

@@ -1,11 +1,13 @@
 //! A run as a picture: its columns over time, with limits, events and uncertainty.
 
+use std::collections::BTreeMap;
+
 use lptn_graph::series;
 use lptn_network::{End, Item, Network};
-use lptn_plot::figure::{Curve, Moment, Panel};
+use lptn_plot::figure::{Curve, Day, Moment, Panel};
 use lptn_plot::{Figure, SERIES};
-use lptn_report::{MOST_CURVES, TEMPERATURE, panels, proven_caption};
-use lptn_solve::Event;
+use lptn_report::{MOST_CURVES, TEMPERATURE, column_names, panels, proven_caption};
+use lptn_solve::{ColumnDays, DaySeen, Event};
 
 use super::answer::RunAnswer;
 use super::uncertainty::figure::{InputBand, inputs};
@@ -28,11 +30,15 @@ impl RunAnswer {
         let fold = families && self.uncertainty().is_none();
         let table = self.table.clone().with_jumps(&self.solution, &self.task.selection, unit);
         let (mut panels, left_out) = panels(&table, fold);
+        self.know_days(&mut panels);
+        panels.iter_mut().for_each(|panel| self.spread(panel));
+        if self.uncertainty().is_some() {
+            panels = panels.into_iter().flat_map(facets).collect();
+        }
         let undrawn = limits::mark(&mut panels, network, unit, families);
         let moments = moments(network, self.solution.events());
         for panel in &mut panels {
             panel.moments.clone_from(&moments);
-            self.spread(panel);
             inked(panel, network);
         }
         let title = self.task.input.title();
@@ -60,8 +66,8 @@ impl RunAnswer {
             notes.push("more happens between rows than they show: --every writes more".into());
         } else if self.task.picture && !drawn {
             notes.push(
-                "too many jumps and bends to draw: straight between rows, in means of days too; \
-                 --every writes more"
+                "too many jumps and bends to draw: straight between rows; --from and --to show all of \
+                 a part"
                     .into(),
             );
         }
@@ -73,6 +79,22 @@ impl RunAnswer {
             notes.extend(proven_caption(&self.table));
         }
         notes.join("; ")
+    }
+
+    /// Gives the curves the days that the solver saw.
+    fn know_days(&self, panels: &mut [Panel]) {
+        let columns =
+            ColumnDays::of(&self.solution, &self.task.selection, &self.task.unit).into_iter();
+        let day = |day: &DaySeen| {
+            let DaySeen { from, to, mean, low, high } = *day;
+            Day { from, to, mean, range: (low, high) }
+        };
+        let columns: BTreeMap<String, Vec<Day>> =
+            columns.map(|of| (of.name, of.days.iter().map(day).collect())).collect();
+        for curve in panels.iter_mut().flat_map(|panel| &mut panel.curves) {
+            let days = column_names(curve).find_map(|name| columns.get(&name));
+            curve.days = days.cloned().unwrap_or_default();
+        }
     }
 
     /// Draws bands around inputs and temperatures, if they are known.
@@ -114,6 +136,34 @@ impl RunAnswer {
             *curve = Curve::line(&curve.name, points.collect()).within(sides);
         }
     }
+}
+
+/// Most bands of one panel if they cover each other.
+const TOLD_APART: usize = 2;
+
+/// Height of the panel of one of several bands.
+const FACET: f64 = 0.5;
+
+/// A panel of temperatures with bands that cover each other as a small one for each band, and one
+/// for the lines; else the panel as it is.
+fn facets(panel: Panel) -> Vec<Panel> {
+    let (bands, lines): (Vec<Curve>, Vec<Curve>) =
+        panel.curves.iter().cloned().partition(|curve| !curve.spread.is_empty());
+    let covered = |(i, band): (usize, &Curve)| bands[..i].iter().any(|other| cover(band, other));
+    let hidden = bands.iter().enumerate().any(covered);
+    if panel.y.name != TEMPERATURE || bands.len() <= TOLD_APART || !hidden {
+        return vec![panel];
+    }
+    let bands = bands.into_iter().map(|band| vec![band]);
+    let all = bands.chain([lines]).filter(|curves| !curves.is_empty());
+    all.map(|curves| Panel { curves, share: FACET, small: true, ..panel.clone() }).collect()
+}
+
+/// True if two bands overlap in half of their points.
+fn cover(one: &Curve, other: &Curve) -> bool {
+    let pairs = one.spread.iter().zip(&other.spread);
+    let over = pairs.filter(|(a, b)| a.0 <= b.1 && b.0 <= a.1).count();
+    2 * over >= one.spread.len().min(other.spread.len())
 }
 
 /// Gives the curves of temperatures the inks that their nodes and boundaries have in every picture.

@@ -15,4 +15,4 @@ mod windows;
 
 pub use answer::RunAnswer;
 pub use observed::{observed, record, shown};
-pub use task::{NoSteady, RunQuestion, RunTask};
+pub use task::{NoSteady, RunQuestion, RunTask, View};

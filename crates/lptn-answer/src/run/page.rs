@@ -85,7 +85,7 @@ impl Page for RunAnswer {
         let tornado = |study: &uncertainty::Study| {
             uncertainty::figure::tornado((self.solution.network(), &self.task.unit), &study.found)
         };
-        self.uncertainty().and_then(tornado).into_iter().chain([self.figure()]).collect()
+        self.uncertainty().and_then(tornado).into_iter().chain(self.figure().apart()).collect()
     }
 
     fn more(&self) -> Report {

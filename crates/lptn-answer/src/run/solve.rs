@@ -7,7 +7,7 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::Diagnostic;
 use lptn_report::Format;
 use lptn_solve::{
-    Lumping, RecordedNodes, RunStatus, Solution, SteadyState, Table, TransientError, Window,
+    Drawn, Lumping, RecordedNodes, RunStatus, Solution, SteadyState, Table, TransientError, Window,
 };
 
 use super::answer::RunAnswer;
@@ -88,6 +88,12 @@ impl RunTask {
         observed(&self.input, (system, &asked), listener)
     }
 
+    /// The columns and times of its pictures.
+    pub(crate) fn drawn(&self) -> Drawn {
+        let days = self.settings.stop - self.settings.start > self.view.days_from;
+        Drawn { of: self.selection.clone(), span: self.view.span, days }
+    }
+
     fn asked(
         &self,
         system: &ThermalSystem,
@@ -103,7 +109,7 @@ impl RunTask {
             false => run,
         };
         if self.picture {
-            run = run.drawing(self.selection.clone());
+            run = run.drawing(self.drawn());
         }
         if self.format == Format::Table {
             let selection = Some(&self.selection).filter(|_| self.chosen);

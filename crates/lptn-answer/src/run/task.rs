@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use lptn_netlist::RunSettings;
 use lptn_network::End;
+use lptn_plot::LONG;
 use lptn_report::{Clock, Format, TimeUnit};
 use lptn_solve::{Selection, SteadyError};
 use lptn_units::Unit;
@@ -36,6 +37,8 @@ pub struct RunQuestion {
     pub report: bool,
     /// True if the run is drawn: its columns are read on both sides of jumps too.
     pub picture: bool,
+    /// The part of it that is drawn.
+    pub view: View,
     /// Amount of detail in a table.
     pub detail: Detail,
     /// The uncertainty of the results, if it is requested.
@@ -56,10 +59,34 @@ impl Default for RunQuestion {
             format: Format::Table,
             report: false,
             picture: false,
+            view: View::default(),
             detail: Detail::Brief,
             uncertainty: None,
             certify: false,
         }
+    }
+}
+
+/// The part of a run that a picture shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Its first and last time in s.
+    pub span: (f64, f64),
+    /// The run in s from which means of days are shown, which a report does by itself.
+    pub days_from: f64,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self { span: (f64::NEG_INFINITY, f64::INFINITY), days_from: f64::INFINITY }
+    }
+}
+
+impl View {
+    /// The view of a page, which shows months by days.
+    #[must_use]
+    pub fn of_page() -> Self {
+        Self { days_from: LONG, ..Self::default() }
     }
 }
 
@@ -99,6 +126,8 @@ pub struct RunTask {
     pub report: bool,
     /// True if it is drawn.
     pub picture: bool,
+    /// The part of it that is drawn.
+    pub view: View,
     /// Amount of detail in a table.
     pub detail: Detail,
     /// The uncertainty that is requested.
@@ -128,6 +157,8 @@ impl RunQuestion {
         let (clock, uncertainty) = (Clock(self.time_unit), self.uncertainty.clone());
         let Self { format, report, detail, certify, .. } = *self;
         let picture = self.picture || report;
+        let page = if report { LONG } else { f64::INFINITY };
+        let view = View { days_from: self.view.days_from.min(page), ..self.view };
         Ok(RunTask {
             input,
             settings,
@@ -140,6 +171,7 @@ impl RunQuestion {
             at,
             report,
             picture,
+            view,
             detail,
             uncertainty,
             certify,

@@ -4,15 +4,13 @@ import { readFileSync } from "node:fs";
 
 const words = process.argv.slice(2), times = words[0] == "--times" ? Number(words.splice(0, 2)[1]) : 0;
 const script = (page, id) => page.split(`id="${id}">`)[1].split("</script>")[0];
-// the page's own function that unpacks its core
-const unpacked = (page, core) => {
-  const unlzma = new Function("return " + page.split("const unlzma = ")[1].split("\n};\n")[0] + "\n}")();
-  return unlzma(new Uint8Array(Buffer.from(core, "base64")));
-};
+// the page's own functions that unpack its core
+const own = (page, name) => new Function("return " + page.split(`const ${name} = `)[1].split("\n};\n")[0] + "\n}")();
+const unpacked = (page, core) => own(page, "unlzma")(own(page, "bytesOf")(core));
 let packed = "", compiled;
 for (const name of words) {
-  const page = readFileSync(name, "utf8"), own = script(page, "core");
-  if (own != packed) [packed, compiled] = [own, new WebAssembly.Module(unpacked(page, own))];
+  const page = readFileSync(name, "utf8"), letters = script(page, "core");
+  if (letters != packed) [packed, compiled] = [letters, new WebAssembly.Module(unpacked(page, letters))];
   const contents = JSON.stringify(JSON.parse(script(page, "contents")).contents);
   const imports = {};
   for (const { module, name } of WebAssembly.Module.imports(compiled)) {

@@ -100,7 +100,7 @@ impl<'a> Cycles<'a> {
             record: RecordedNodes::Nodes(Vec::new()),
             watch: Vec::new(),
             windows: Vec::new(),
-            jumps: None,
+            drawn: None,
             balance: None,
             tolerance,
             certify: false,

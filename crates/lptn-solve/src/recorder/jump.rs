@@ -4,37 +4,56 @@
 //! ramp, and a temperature that rises before its heat comes. Pictures therefore read their columns
 //! at these known times too. The rows do not depend on it.
 
+use super::days::MOST_NUMBERS;
 use super::{Recorder, StateAt};
+use crate::drawn::Drawn;
 use crate::readings::pieces;
-use crate::selection::Selection;
 use crate::stop_reason::StopReason;
 
-/// More sides than this are too many for a picture: none is kept.
-const MOST_SIDES: usize = 4000;
+/// Intervals of a picture of a part of a run: its rows may be far apart.
+const SAMPLES: u32 = 600;
 
 /// Columns at the known times between the rows.
 #[derive(Clone, Debug)]
 pub(crate) struct Jumps {
-    of: Selection,
-    /// Time in s and values in SI units, ascending. The time before a jump is the next smaller one.
+    drawn: Drawn,
+    /// Times in s, ascending, at which a picture of a part of the run reads its columns too.
+    samples: Vec<f64>,
+    /// Time in s and values in SI units, by step. The time before a jump is the next smaller one.
     sides: Vec<(f64, Vec<f64>)>,
     too_many: bool,
 }
 
 impl Jumps {
-    pub(crate) fn new(of: Selection) -> Self {
-        Self { of, sides: Vec::new(), too_many: false }
+    /// For a run over this span in s.
+    pub(crate) fn new(drawn: Drawn, run: (f64, f64)) -> Self {
+        let (from, to) = (drawn.span.0.max(run.0), drawn.span.1.min(run.1));
+        let is_part = from < to && (from > run.0 || to < run.1);
+        let at = |k: u32| from + (to - from) * f64::from(k) / f64::from(SAMPLES);
+        let samples = if is_part { (0..=SAMPLES).map(at).collect() } else { Vec::new() };
+        Self { drawn, samples, sides: Vec::new(), too_many: false }
     }
 
-    /// Every side; `None` if there are too many.
+    /// The samples in a step, but for its end.
+    fn samples(&self, (from, to): (f64, f64)) -> Vec<f64> {
+        let place = |time: f64| self.samples.partition_point(|sample| *sample < time);
+        self.samples[place(from)..place(to)].to_vec()
+    }
+
+    /// Every side that is drawn; `None` if they need too much memory.
     pub(crate) fn into_sides(self) -> Option<Vec<(f64, Vec<f64>)>> {
         (!self.too_many).then_some(self.sides)
     }
 
+    /// True if a side at this time is kept.
+    fn shows(&self, time: f64) -> bool {
+        !self.too_many && time >= self.drawn.span.0 && time <= self.drawn.span.1
+    }
+
     fn keep(&mut self, time: f64, values: Vec<f64>) {
-        self.too_many |= self.sides.len() >= MOST_SIDES;
+        self.too_many |= (self.sides.len() + 1) * (values.len() + 1) > MOST_NUMBERS;
         if self.too_many {
-            self.sides.clear();
+            self.sides = Vec::new();
         } else {
             self.sides.push((time, values));
         }
@@ -48,14 +67,18 @@ impl Recorder<'_> {
         if has_row { Ok(()) } else { self.keep(time, self.inside) }
     }
 
-    /// Keeps the columns on both sides of the jumps in a step, and before one at its end.
+    /// Keeps the columns on both sides of the jumps in a step and before one at its end, and its
+    /// samples.
     pub(super) fn keep_between(
         &mut self,
         (from, to): (f64, f64),
         state_at: &mut StateAt<'_>,
     ) -> Result<(), StopReason> {
-        if self.jumps.is_none() {
-            return Ok(());
+        let Some(jumps) = &self.jumps else { return Ok(()) };
+        for time in jumps.samples((from, to)) {
+            self.inside = self.readings.inside(time);
+            self.place_at(time, state_at)?;
+            self.keep_after(time)?;
         }
         for ((time, _), begins) in pieces(self.readings.inner(), (from, to)) {
             // the start of the segment has its sides
@@ -79,12 +102,12 @@ impl Recorder<'_> {
     }
 
     fn keep(&mut self, time: f64, inside: f64) -> Result<(), StopReason> {
-        let Some(jumps) = self.jumps.as_mut().filter(|jumps| !jumps.too_many) else {
+        let Some(jumps) = self.jumps.as_mut().filter(|jumps| jumps.shows(time)) else {
             return Ok(());
         };
         self.reading.place(&mut self.work, (time, inside)).map_err(StopReason::Input)?;
-        let mut values = Vec::with_capacity(jumps.of.quantities().len());
-        for &quantity in jumps.of.quantities() {
+        let mut values = Vec::with_capacity(jumps.drawn.of.quantities().len());
+        for &quantity in jumps.drawn.of.quantities() {
             let value = self.reading.value(&mut self.work, quantity);
             values.push(value.map_err(StopReason::Input)?);
         }

@@ -4,6 +4,7 @@ use super::{Recorder, StateAt};
 use crate::interval::{Interval, POINTS, time_of};
 use crate::readings::pieces;
 use crate::stop_reason::StopReason;
+use crate::tracked::Tracked;
 
 /// Nodes that are placed to find the tops of watched ones in a step. If there are more of both, the
 /// interpolation through the points of the step is used.
@@ -37,32 +38,36 @@ impl Recorder<'_> {
         if !self.windows.is_empty() {
             for (piece, _) in pieces(&self.readings.windows, step) {
                 self.inside = self.readings.inside(piece.0);
-                self.track(piece, state_at)?;
+                let mut windows = std::mem::take(&mut self.windows);
+                let outcome = windows.iter_mut().try_for_each(|w| self.track(w, piece, state_at));
+                self.windows = windows;
+                outcome?;
             }
         }
+        self.count_days(step, state_at)?;
         self.inside = self.readings.inside_before(step.1);
         Ok(())
     }
 
-    /// Takes a step into the windows that it reaches.
-    fn track(&mut self, step: (f64, f64), state_at: &mut StateAt<'_>) -> Result<(), StopReason> {
-        let mut windows = std::mem::take(&mut self.windows);
-        let outcome = windows.iter_mut().try_for_each(|window| {
-            window.stand(&mut self.reading.scope);
-            window.step(step, &mut |time, (of, bends), values| {
-                self.place_at(time, state_at)?;
-                let at = (time, self.inside);
-                self.reading.place(&mut self.work, at).map_err(StopReason::Input)?;
-                for &quantity in of.quantities() {
-                    let value = self.reading.value(&mut self.work, quantity);
-                    values.push(value.map_err(StopReason::Input)?);
-                }
-                bends.read(&mut self.reading.scope, values);
-                Ok(())
-            })
-        });
-        self.windows = windows;
-        outcome
+    /// Takes a step into a window, if it reaches it.
+    pub(super) fn track(
+        &mut self,
+        window: &mut Tracked,
+        step: (f64, f64),
+        state_at: &mut StateAt<'_>,
+    ) -> Result<(), StopReason> {
+        window.stand(&mut self.reading.scope);
+        window.step(step, &mut |time, (of, bends), values| {
+            self.place_at(time, state_at)?;
+            let at = (time, self.inside);
+            self.reading.place(&mut self.work, at).map_err(StopReason::Input)?;
+            for &quantity in of.quantities() {
+                let value = self.reading.value(&mut self.work, quantity);
+                values.push(value.map_err(StopReason::Input)?);
+            }
+            bends.read(&mut self.reading.scope, values);
+            Ok(())
+        })
     }
 
     fn look(&mut self, step: (f64, f64), state_at: &mut StateAt<'_>) -> Result<(), StopReason> {

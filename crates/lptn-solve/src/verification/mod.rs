@@ -198,7 +198,7 @@ fn runs(
             tolerance,
             record: RecordedNodes::All,
             watch: Vec::new(),
-            jumps: None,
+            drawn: None,
             ..settings.clone()
         };
         settings.solve_observed(system, &mut |progress| observer(tolerance, progress))

@@ -164,6 +164,7 @@ fn of_netlist(
     if args.periodic {
         return of_cycle(path, (args, select, input), console);
     }
+    let view = args.view.view()?;
     let scale = Scale { temperature_unit: args.scale.temperature_unit.clone() };
     let args = RunArgs {
         source: asked(path, args),
@@ -179,6 +180,7 @@ fn of_netlist(
         uncertainty: run::uncertainty::UncertaintyArgs::default(),
         certify: false,
         picture: true,
+        view,
     };
     let (answer, _) = run::answer(&args, input, console)?;
     run::messages::beside(&answer, None, console);

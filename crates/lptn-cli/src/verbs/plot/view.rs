@@ -5,6 +5,7 @@ use std::str::FromStr;
 use clap::Args as Arguments;
 use lptn_answer::failure::Failure;
 use lptn_answer::input::{quantity, wrong_unit};
+use lptn_answer::run::View;
 use lptn_plot::chart::Layout;
 use lptn_plot::{Figure, Theme};
 use lptn_report::Canvas;
@@ -109,6 +110,15 @@ impl ViewArgs {
             figure.title.clone_from(title);
         }
         Ok(figure)
+    }
+
+    /// The part of a run that is shown.
+    ///
+    /// # Errors
+    /// Times that are none.
+    pub(crate) fn view(&self) -> Result<View, Failure> {
+        let days_from = if self.daily { 0.0 } else { f64::INFINITY };
+        Ok(View { span: self.span()?, days_from })
     }
 
     /// The times that are shown, in s.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args as Arguments;
-use lptn_answer::run::RunQuestion;
+use lptn_answer::run::{RunQuestion, View};
 
 use super::uncertainty::UncertaintyArgs;
 use crate::console::Console;
@@ -54,6 +54,9 @@ pub(crate) struct RunArgs {
     /// True if the run is drawn
     #[arg(skip)]
     pub(crate) picture: bool,
+    /// The part that is drawn
+    #[arg(skip)]
+    pub(crate) view: View,
 }
 
 impl RunArgs {
@@ -69,6 +72,7 @@ impl RunArgs {
             format: self.shown.format,
             report: console.reports(),
             picture: self.picture || console.plot.is_some(),
+            view: self.view,
             detail: console.detail,
             uncertainty: self.uncertainty.question(),
             certify: self.certify,
