@@ -66,6 +66,13 @@ fn inputs_that_are_set_between_steps_are_met_exactly() {
 }
 
 #[test]
+fn a_boundary_has_its_temperature() {
+    let simulation = Simulation::new(&body(), &settings()).unwrap();
+    assert!((simulation.temperature("air").unwrap().0 - ZERO - 20.0).abs() < 1e-12);
+    assert!(simulation.temperature("water").is_err());
+}
+
+#[test]
 fn what_was_saved_goes_on_to_the_same_bits() {
     let mut one = Simulation::new(&body(), &settings()).unwrap();
     one.set("P", 80.0).unwrap();

@@ -73,7 +73,7 @@ impl Simulation {
         &self.unit.text
     }
 
-    /// The temperature of a node, in the unit of temperatures.
+    /// The temperature of a node or boundary, in the unit of temperatures.
     fn temperature(&self, node: &str) -> PyResult<f64> {
         let found = self.simulation.temperature(node).map_err(refused)?;
         Ok(self.unit.from_si(found.0))

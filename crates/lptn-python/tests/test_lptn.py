@@ -254,6 +254,20 @@ class Simulations(unittest.TestCase):
         sim.restore(saved)
         self.assertEqual(sim.time, 300.0)
 
+    def test_boundaries_have_temperatures(self):
+        # 20 degC + 5 K + 0.01 K/s t; a jump at 600 s is over there
+        text = WALL.replace("Ta + lift", "Ta + lift + 0.01 [K/s] * t")
+        sim = lptn.parse(text).simulation()
+        self.assertAlmostEqual(sim["wall.T"], 25, places=9)
+        sim.step("10 min")
+        self.assertAlmostEqual(sim["wall.T"], 31, places=9)
+        sim.set(lift="7 K")
+        self.assertAlmostEqual(sim.temperature("wall"), 33, places=9)
+        jump = lptn.parse(WALL.replace("Ta + lift", "if(t < 600 [s], Ta, Ta + lift)")).simulation()
+        self.assertAlmostEqual(jump["wall.T"], 20, places=9)
+        jump.advance("10 min")
+        self.assertAlmostEqual(jump["wall.T"], 25, places=9)
+
     def test_events_and_refusals(self):
         sim = lptn.parse(BODY).simulation()
         sim.set(P="200 W")

@@ -65,6 +65,14 @@ class Arguments(unittest.TestCase):
             self.refused(TypeError, lambda: self.net.sweep({"P": column}), "column `P`")
         self.refused(TypeError, lambda: self.net.sweep({"P": [1, 2], "G": [1]}), "P [W] 2")
         self.refused(ValueError, lambda: self.net.sweep({"P": [1]}, over="runn"), "'runn'")
+        # places in the study and the file that the package wrote are of no use
+        for frame, words in [({"P": [1]}, {"over": "run", "report": {"a": "block.T"}}),
+                             ({"P [W/K]": [1]}, {})]:
+            error = self.refused(lptn.Error, lambda: self.net.sweep(frame, **words))
+            self.assertTrue(error.code and not error.places)
+            self.assertFalse(str(error).startswith("netlist.toml"))
+        frame = {"P": [1.0, float("nan")]}
+        self.refused(lptn.Error, lambda: self.net.sweep(frame), "candidate 2: column `P`")
 
     def test_kinds_of_arguments(self):
         self.refused(TypeError, lambda: self.net.run(set="x"), "`set` takes a dictionary")

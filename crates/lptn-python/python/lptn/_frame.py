@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import _lptn
-from ._messages import Error
+from ._messages import CANDIDATES, Error
 from ._progress import shown
 from ._questions import answered
 from ._result import Result
@@ -34,7 +34,7 @@ def sweep(
 
     one_of("over", over, ("steady", "run", "periodic"))
     with tempfile.TemporaryDirectory(prefix="lptn-") as folder:
-        file = os.path.join(folder, "candidates.csv")
+        file = os.path.join(folder, CANDIDATES)
         _write(file, _columns(network, frame))
         lines = ["", "[sweep.frame]", 'method = "csv"', f"file = {json.dumps(file)}"]
         lines += [f"over = {json.dumps(over)}", "[sweep.frame.report]"]
@@ -43,9 +43,13 @@ def sweep(
             raise TypeError('report takes names and results: {"hot": "steel.T"}')
         lines += [f"{name} = {json.dumps(text)}" for name, text in named.items()]
         text, name = network.text
-        netlist = _lptn.Netlist.parse(text + "\n".join(lines) + "\n", name, network._set)
-        with shown(words) as words:
-            answer = netlist.ask("sweep", [], {**words, "name": "frame"})
+        try:
+            netlist = _lptn.Netlist.parse(text + "\n".join(lines) + "\n", name, network._set)
+            with shown(words) as words:
+                answer = netlist.ask("sweep", [], {**words, "name": "frame"})
+        except Error as error:
+            error.within(text.count("\n") + 1)
+            raise
         return answered(answer, "sweep", words, 3, network=network)
 
 

@@ -116,12 +116,11 @@ def _check(texts: dict[str, str], by: list[str], over: str | None) -> None:
 
 
 def _rename(error: Error, results: list[str], lines: int) -> None:
-    """Problems of the study name the results; places after the user's own text are of no use."""
+    """Problems of the study name the results."""
     for problem in error.errors:
         for place, text in enumerate(results):
             problem.message = problem.message.replace(f"report `lptn_result_{place}`", f"`{text}`")
-        problem.places = [place for place in problem.places if place.line <= lines]
-    error.refresh()
+    error.within(lines)
 
 
 def _named(of: str | Sequence[str] | Mapping[str, str]) -> dict[str, str]:

@@ -11,6 +11,9 @@ from typing import Any
 
 from . import _lptn
 
+# The file of the candidates of a frame.
+CANDIDATES = "lptn-candidates.csv"
+
 # A command of the program, which stays as it is.
 _COMMAND = re.compile(r"(`lptn [^`]*`|\blptn [a-z]+ [^`;:]*)")
 # A parameter that is set: `--set "P=3 W"`.
@@ -135,6 +138,19 @@ class Error(Exception):
     def refresh(self) -> None:
         """Writes the text again, after problems were explained."""
         self.args = ("\n".join(str(error) for error in self.errors),)
+
+    def within(self, lines: int) -> None:
+        """Leaves out places after the user's own lines; a row of a frame is a candidate."""
+        for problem in self.errors:
+            rows = [p.line - 1 for p in problem.places if os.path.basename(p.file) == CANDIDATES]
+            if any(rows):
+                problem.message = f"candidate {max(rows)}: {problem.message}"
+            problem.places = [
+                place
+                for place in problem.places
+                if place.line <= lines and os.path.basename(place.file) != CANDIDATES
+            ]
+        self.refresh()
 
     @classmethod
     def _of(cls, errors: str, exit: int, doubts: str) -> Error:

@@ -303,11 +303,11 @@ class Simulation:
             return self._of.events
 
     def __getitem__(self, name: str) -> float:
-        """The temperature of a node: `sim["steel.T"]`."""
+        """The temperature of a node or boundary: `sim["steel.T"]`."""
         return self.temperature(name.removesuffix(".T"))
 
     def temperature(self, node: str) -> float:
-        """The temperature of a node, in the unit of temperatures."""
+        """The temperature of a node or boundary, in the unit of temperatures."""
         with self._lock:
             return self._of.temperature(node)
 
