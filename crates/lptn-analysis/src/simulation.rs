@@ -8,7 +8,7 @@ use lptn_network::{
 };
 use lptn_solve::{
     ControlState, EventIndicator, Proceed, RateSlopes, Rates, Solution, State, StateRates,
-    Transient, Unsolved,
+    Transient, boundary_temperatures,
 };
 use serde::{Deserialize, Serialize};
 
@@ -99,24 +99,11 @@ impl Simulation {
     pub fn temperature(&self, name: &str) -> Result<Temperature, SimulationError> {
         let boundaries = self.network().boundaries();
         if let Some(place) = boundaries.iter().position(|boundary| boundary.name == name) {
-            return self.boundary(place);
+            let all = boundary_temperatures(&self.system, self.time, &self.controls)?;
+            return Ok(Temperature(all[place]));
         }
         let id = self.network().node(name)?;
         Ok(Temperature(self.temperatures[id.index()]))
-    }
-
-    fn boundary(&self, place: usize) -> Result<Temperature, SimulationError> {
-        let (system, mut work) = (&self.system, self.system.workspace());
-        let mut positions = system.network().initial_positions();
-        for (on, control) in positions.controls.iter_mut().zip(&self.controls) {
-            *on = control.on;
-        }
-        work.set_positions(&positions);
-        // comparisons of `t` have their truth from now on, as in the rows of a run
-        let after = self.time + 1e-12 * self.time.abs().max(1.0);
-        let read = system.read_inputs(&mut work, self.time, after);
-        read.map_err(|error| Unsolved::Input(Box::new(error)))?;
-        Ok(Temperature(system.boundary_temperatures(&work)[place]))
     }
 
     /// Sets a parameter, or fixes a signal, at a value in SI units from now on. The temperatures

@@ -139,7 +139,7 @@ pub use ranges::OutOfRange;
 pub use rate_slopes::{
     Direction, DirectionError, DirectionPart, RateJacobian, RateSlopes, RateSlopesError,
 };
-pub use rates::{Rates, StateRates};
+pub use rates::{Rates, StateRates, boundary_temperatures};
 pub use response::{Drive, FrequencyResponse, ResponseError, StepAnswer, settled_rises};
 pub use result_slopes::{MarginSlopes, SlopesError};
 pub use runaway::Feedback;

@@ -61,11 +61,7 @@ impl<'a> StateRates<'a> {
             self.unfold.stand_at(state.stood());
         }
         self.controls = controls.to_vec();
-        let mut positions = self.system.network().initial_positions();
-        for (on, control) in positions.controls.iter_mut().zip(controls) {
-            *on = control.on;
-        }
-        self.work.set_positions(&positions);
+        self.work.set_positions(&positions(self.system, controls));
         self
     }
 
@@ -140,6 +136,31 @@ impl<'a> StateRates<'a> {
         };
         network.switch_ids().zip(network.switches()).map(one).collect()
     }
+}
+
+/// The positions of these controls, and of comparisons at the start.
+fn positions(system: &ThermalSystem, controls: &[ControlState]) -> Positions {
+    let mut positions = system.network().initial_positions();
+    for (on, control) in positions.controls.iter_mut().zip(controls) {
+        *on = control.on;
+    }
+    positions
+}
+
+/// Temperatures of all boundaries in K at a time in s, just after any jump there, with these
+/// positions of controls.
+///
+/// # Errors
+/// [`Unsolved`] if an input has no value.
+pub fn boundary_temperatures(
+    system: &ThermalSystem,
+    time: f64,
+    controls: &[ControlState],
+) -> Result<Vec<f64>, Unsolved> {
+    let mut work = system.workspace();
+    work.set_positions(&positions(system, controls));
+    system.read_inputs(&mut work, time, just_after(time)).map_err(input)?;
+    Ok(system.boundary_temperatures(&work).to_vec())
 }
 
 pub(crate) fn input(error: InputError) -> Unsolved {

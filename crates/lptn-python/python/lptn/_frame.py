@@ -82,13 +82,12 @@ def _columns(network: Network, frame: Any) -> dict[str, list[float]]:
     """The columns with the headings of a CSV file: `G_out [W/K]`."""
     columns: dict[str, list[float]] = {}
     # polars has `columns`, dictionaries have `keys`, pandas both
-    for head in frame.columns if hasattr(frame, "columns") else frame:
-        name, bracket, _ = str(head).partition("[")
-        unit = known(network._netlist, name.strip())[1]
-        heading = str(head) if bracket or not unit else f"{name} [{unit}]"
-        cells = _cells(name, frame[head])
+    heads = list(frame.columns if hasattr(frame, "columns") else frame)
+    names = [str(head).partition("[")[0].strip() for head in heads]
+    for head, name, (_, unit) in zip(heads, names, known(network._netlist, names)):
+        heading = str(head) if "[" in str(head) or not unit else f"{name} [{unit}]"
         columns[heading] = [
-            cell if type(cell) is float else _number(name.strip(), cell) for cell in cells
+            cell if type(cell) is float else _number(name, cell) for cell in _cells(name, frame[head])
         ]
     if len({len(cells) for cells in columns.values()}) != 1:
         lengths = ", ".join(f"{name} {len(cells)}" for name, cells in columns.items()) or "none"
@@ -98,7 +97,7 @@ def _columns(network: Network, frame: Any) -> dict[str, list[float]]:
 
 def _cells(name: str, column: Any) -> list[Any]:
     if isinstance(column, str) or not hasattr(column, "__iter__") or getattr(column, "ndim", 1) == 0:
-        raise TypeError(f"column `{name.strip()}` of the frame is a list of numbers, not {column!r}")
+        raise TypeError(f"column `{name}` of the frame is a list of numbers, not {column!r}")
     return column.tolist() if hasattr(column, "tolist") else list(column)
 
 

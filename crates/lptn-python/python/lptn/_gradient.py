@@ -146,8 +146,8 @@ def _split(texts: dict[str, str]) -> tuple[dict[str, str], dict[str, str]]:
 
 def _study(network: Network, by: list[str], reports: dict[str, str], over: str) -> str:
     """A sweep of one candidate: the parameters at their own values, the results as reports."""
-    own = {name: "{!r} {}".format(*known(network._netlist, name)).strip() for name in by}
-    axes = [f"{json.dumps(name)} = [{json.dumps(text)}]" for name, text in own.items()]
+    own = [f"{value!r} {unit}".strip() for value, unit in known(network._netlist, by)]
+    axes = [f"{json.dumps(name)} = [{json.dumps(text)}]" for name, text in zip(by, own)]
     lines = ["[sweep.lptn_gradient]", 'method = "list"', f"over = {json.dumps(over)}"]
     lines += ["[sweep.lptn_gradient.axes]", *axes, "[sweep.lptn_gradient.report]"]
     named = [f"lptn_result_{place} = {json.dumps(text)}" for place, text in enumerate(reports.values())]

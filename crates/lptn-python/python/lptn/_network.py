@@ -162,11 +162,7 @@ class Network(Questions):
 
         Raises `lptn.Error` if a network that was loaded, such as one with a grid, has no flat form.
         """
-        if self._tables is not None:
-            return self._tables.text
-        text = self._netlist.to_toml()
-        _lptn.Netlist.parse(text, self._source[1 if self._source[0] == "load" else 2], {})
-        return text
+        return self._netlist.to_toml() if self._tables is None else self._tables.text
 
     @property
     def text(self) -> tuple[str, str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache
 from typing import Any
 
@@ -14,12 +14,16 @@ _NUMBERS = (float, int)
 Read = Callable[[], _lptn.Netlist]
 
 
-def known(netlist: _lptn.Netlist, name: str) -> tuple[float, str]:
-    """The value and unit of a parameter, or the error of every question for an unknown one."""
+def known(netlist: _lptn.Netlist, names: Iterable[str]) -> list[tuple[float, str]]:
+    """Values and units of parameters, or the error of every question for an unknown one."""
     own = _parameters(netlist)
-    if name not in own:
-        netlist.ask("modes", [], {"set": {name: "1"}})
-    return own[name]
+
+    def one(name: str) -> tuple[float, str]:
+        if name not in own:
+            netlist.ask("modes", [], {"set": {name: "1"}})
+        return own[name]
+
+    return [one(name) for name in names]
 
 
 def one_of(name: str, word: str, words: tuple[str, ...]) -> None:

@@ -125,7 +125,7 @@ impl<'a> Way<'a> {
     }
 
     /// Integrates back over a part of a stretch, by steps no longer than those of the run: a running
-    /// integral changes as fast as the temperatures do, and has no tolerance of its own.
+    /// integral changes as fast as the temperatures do, and CVODES does not control its error.
     fn pass(&mut self, stretch: usize, (from, to): (f64, f64)) -> Result<(), BackwardError> {
         let is_zero = !self.adjoint.iter().any(|x| x.abs() > 0.0);
         if from >= to {
