@@ -65,6 +65,12 @@ impl Margin<'_> {
         Some([of?, value?].concat())
     }
 
+    /// True if both sides are a temperature or a number, so that its derivatives are constants.
+    pub(crate) fn is_plain(&self) -> bool {
+        let sides = self.network().limits()[self.limit.index()].sides();
+        sides.iter().all(|side| side.programs().is_empty())
+    }
+
     /// The nodes by whose temperatures it may change.
     pub(crate) fn nodes(&self) -> Vec<NodeId> {
         self.nodes_alone().unwrap_or_else(|| self.network().thermal_nodes().collect())

@@ -37,7 +37,9 @@ pub(crate) fn slope<E>(
 }
 
 fn smooth(stencil: &[(f64, f64); 5], values: &[f64], step: f64) -> Option<f64> {
-    let sum: f64 = stencil.iter().zip(values).map(|((_, weight), value)| weight * value).sum();
+    // the weights add up to 0; so a constant has a slope of exactly 0
+    let rises = values.iter().map(|value| value - values[0]);
+    let sum: f64 = stencil.iter().zip(rises).map(|((_, weight), rise)| weight * rise).sum();
     let mut along: Vec<(f64, f64)> =
         stencil.iter().map(|(place, _)| *place).zip(values.iter().copied()).collect();
     along.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -67,6 +69,14 @@ mod tests {
         for side in [1.0, -1.0] {
             let one: Found = slope(1e-3, |x| if x * side < 0.0 { Err(()) } else { Ok(x.exp()) });
             assert!((one.ok().flatten().unwrap_or(0.0) - 1.0).abs() < 1e-10);
+        }
+    }
+
+    #[test]
+    fn a_constant_has_no_slope() {
+        for value in [1e-7, 0.1, 22_181.100_573_844_64, 1e9 / 7.0] {
+            let found: Found = slope(1e-3, |_| Ok(value));
+            assert!(found.ok().flatten().is_some_and(|slope| slope.abs() <= 0.0));
         }
     }
 

@@ -1,12 +1,17 @@
 //! The states of a run at every time, and its events, for analyses that go back through it.
 //!
-//! The integrator's interpolant of a step is a polynomial of the fifth degree at most. Its values at
-//! six Chebyshev points determine it, so that a trajectory adds no error to that of the run.
+//! The integrator's own interpolant of each step is kept ([`curve`]), so that a trajectory adds no
+//! error to that of the run.
 
+mod curve;
+
+use std::sync::Arc;
+
+use lptn_integrate::SeriesStep;
 use lptn_network::{Network, NoTangents, Positions};
 
-/// Values that are kept of each state and step.
-const POINTS: usize = 6;
+use curve::Curve;
+pub(crate) use curve::Series;
 
 /// The most memory of a trajectory in bytes.
 const MOST_BYTES: usize = 1 << 30;
@@ -79,8 +84,7 @@ pub(crate) enum Cause {
 struct Piece {
     from: f64,
     to: f64,
-    /// Point by point the variables of all states.
-    values: Vec<f64>,
+    curve: Curve,
     /// Temperatures in K at its end of the massless nodes that are solved for: which of several
     /// solutions they are on.
     branch: Vec<f64>,
@@ -94,11 +98,6 @@ pub(crate) struct Trajectory {
     switched: Vec<Option<usize>>,
     bytes: usize,
     failure: Option<NoTrajectory>,
-}
-
-/// Places on (0, 1): Chebyshev points of the second kind.
-fn place(k: usize) -> f64 {
-    0.5 - 0.5 * (std::f64::consts::PI * k as f64 / (POINTS - 1) as f64).cos()
 }
 
 impl Trajectory {
@@ -117,29 +116,41 @@ impl Trajectory {
         self.stretches.push(Stretch { inside, positions, pieces: Vec::new(), end: None });
     }
 
-    /// The times in s at which a piece needs its values.
-    pub(crate) fn times(from: f64, to: f64) -> [f64; POINTS] {
-        let mut times = [0.0; POINTS];
-        times.iter_mut().enumerate().for_each(|(k, time)| *time = from + place(k) * (to - from));
-        times[POINTS - 1] = to;
-        times
+    /// The times in s at which a piece of a polynomial needs its values.
+    pub(crate) fn times(from: f64, to: f64) -> [f64; curve::POINTS] {
+        curve::times(from, to)
     }
 
     /// Adds a piece with its values at those times, and the temperatures in K of massless nodes at
     /// its end.
-    pub(crate) fn add(&mut self, (from, to): (f64, f64), values: Vec<f64>, branch: Vec<f64>) {
+    pub(crate) fn add(&mut self, span: (f64, f64), values: Vec<f64>, branch: Vec<f64>) {
+        self.push(span, Curve::Points(values), branch);
+    }
+
+    /// Adds a piece of a series.
+    pub(crate) fn add_series(&mut self, span: (f64, f64), step: &SeriesStep<'_>) {
+        let last = self.stretches.last().and_then(|stretch| stretch.pieces.last());
+        let known = last.and_then(|piece| piece.curve.series());
+        let series = match known {
+            Some(known) if known.is_of(step) => Arc::clone(known),
+            _ => Arc::new(Series::of(step)),
+        };
+        self.push(span, Curve::Series(series), Vec::new());
+    }
+
+    fn push(&mut self, (from, to): (f64, f64), curve: Curve, branch: Vec<f64>) {
         if from >= to {
             return;
         }
         let steps = self.stretches.iter().map(|stretch| stretch.pieces.len()).sum::<usize>();
-        self.bytes += (values.len() + branch.len()) * size_of::<f64>();
+        self.bytes += curve.bytes() + branch.len() * size_of::<f64>();
         if self.bytes > MOST_BYTES {
-            let states = values.len() / POINTS;
+            let states = curve.states();
             self.failure.get_or_insert(NoTrajectory::Long { states, steps });
             return;
         }
         if let Some(stretch) = self.stretches.last_mut() {
-            stretch.pieces.push(Piece { from, to, values, branch });
+            stretch.pieces.push(Piece { from, to, curve, branch });
         }
     }
 
@@ -214,6 +225,14 @@ impl Stretch {
         self.piece(time).iter().for_each(|piece| piece.at(time, out));
     }
 
+    /// The ends in s of the steps inside a part of it, without its own.
+    pub(crate) fn joints(&self, (from, to): (f64, f64)) -> impl Iterator<Item = f64> + '_ {
+        let first = self.pieces.partition_point(|piece| piece.to <= from);
+        let pairs = self.pieces[first..].windows(2).take_while(move |pair| pair[0].to < to);
+        let steps = pairs.filter(|pair| !pair[0].curve.goes_on_in(&pair[1].curve));
+        steps.map(|pair| pair[0].to)
+    }
+
     /// Duration in s of the step that ends at a time or contains it.
     pub(crate) fn step(&self, time: f64) -> f64 {
         self.piece(time).map_or(f64::INFINITY, |piece| piece.to - piece.from)
@@ -226,26 +245,8 @@ impl Stretch {
 }
 
 impl Piece {
-    /// The polynomial by the barycentric formula (J.-P. Berrut and L. N. Trefethen, SIAM Rev. 46
-    /// (2004) 501, equation 5.4).
     fn at(&self, time: f64, out: &mut [f64]) {
-        let at = ((time - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
-        let states = out.len();
-        let mut weights = [0.0; POINTS];
-        for (k, weight) in weights.iter_mut().enumerate() {
-            let distance = at - place(k);
-            if distance.abs() < f64::EPSILON {
-                out.copy_from_slice(&self.values[k * states..(k + 1) * states]);
-                return;
-            }
-            let end = if k == 0 || k == POINTS - 1 { 0.5 } else { 1.0 };
-            *weight = if k % 2 == 0 { end } else { -end } / distance;
-        }
-        let sum: f64 = weights.iter().sum();
-        out.fill(0.0);
-        for (row, weight) in self.values.chunks(states.max(1)).zip(weights) {
-            out.iter_mut().zip(row).for_each(|(out, value)| *out += weight / sum * value);
-        }
+        self.curve.at((self.from, self.to), time, out);
     }
 }
 

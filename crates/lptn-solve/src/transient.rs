@@ -247,7 +247,7 @@ impl<'a> Run<'a> {
         let guard = Guard::of(system, options.tolerance);
         let growth = Growth::of(system, options.tolerance);
         let straight = curved.is_none() && system.network().inputs_are_straight();
-        let inputs = Inputs { curved: !straight, parts: segments.len() };
+        let inputs = Inputs { curved: !straight, parts: settings.parts(segments) };
         let choice = (settings.integrator_for(system), inputs);
         let (mut integrator, method) = stepper(heat, (settings.start, &initial), &options, choice)?;
         let certifier = settings.certify.then(|| recorder.certifier(method, &initial, settings));

@@ -2,7 +2,7 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Functional, IntegratorChoice, LimitId, Network, ParameterId, Time};
-use lptn_solve::{Proceed, Solution, Transient, sensitive_run};
+use lptn_solve::{Method, Proceed, Solution, Transient, sensitive_run};
 
 use crate::features::Dice;
 
@@ -96,8 +96,25 @@ fn both_ways_in_time_agree() {
     }
 }
 
-/// A trajectory consists of polynomials over short steps, also if the network asks for the one-step
-/// method. With x = exp(-G t / C): T = 20 degC + P/G (1 - x).
+/// A rod of constant conductances: its run and its adjoint go by the one-step method, and forward
+/// sensitivities by CVODES.
+#[test]
+fn linear_networks_agree_with_forward_sensitivities() {
+    let network = rod(60, "");
+    let parameters: Vec<ParameterId> = network.parameter_ids().collect();
+    let limit = network.limit_ids().next().unwrap();
+    let forward = sensitive_run(&network, &until(1000.0, 1e-9), &parameters).unwrap();
+    let row = forward.solution.times().len() - 1;
+    let settings = Transient { trajectory: true, ..until(1000.0, 1e-9) };
+    assert_eq!(run(&network, &settings).method(), Some(Method::OneStep));
+    let back = by_all(&network, 1e-9, limit, Functional::Last);
+    for (&parameter, found) in parameters.iter().zip(back) {
+        let expected = forward.margin_derivative(parameter, (limit, row)).unwrap();
+        near(found, expected, (1e-8, expected.abs().max(1e-3)));
+    }
+}
+
+/// The one-step method keeps its series. With x = exp(-G t / C): T = 20 degC + P/G (1 - x).
 #[test]
 fn the_method_that_is_asked_for_does_not_matter() {
     let network = network(
@@ -259,44 +276,54 @@ fn margin(solution: &Solution, functional: Functional) -> f64 {
     363.15 - temperature
 }
 
-/// A rod of 1000 nodes whose 1000 conductances rise with temperature, each with its parameter. The
-/// gradient takes at most four times the time of the run; the ratio is printed, not asserted.
+/// A rod of 1000 nodes whose 1000 conductances, each with its parameter, are constant or rise with
+/// temperature. The gradient takes at most four times the time of the run; the ratio is printed, not
+/// asserted.
 #[test]
 #[ignore = "measures time"]
 fn thousand_parameters() {
+    for law in ["", " * (1 + 0.001 [1/K] * (@.T - 20 [degC]))"] {
+        let network = rod(1000, law);
+        for tolerance in [1e-3, 1e-4, 1e-6, 1e-8] {
+            println!("`{law}` at {tolerance} K: {}", cost_of_gradient(&network, tolerance));
+        }
+    }
+}
+
+/// A rod of some nodes with a factor of each conductance, in which `@` is its node.
+fn rod(count: usize, law: &str) -> Network {
     let mut parts = [const { String::new() }; 3];
     let mut before = "air".to_owned();
-    for k in 0..1000 {
+    for k in 0..count {
+        let node = format!("n{k}");
+        let factor = law.replace('@', &node);
         parts[0] += &format!("G{k} = \"{} W/K\"\n", 20 + k % 7);
-        parts[1] += &format!("n{k} = {{ C = \"{} J/K\", T0 = \"20 degC\" }}\n", 5 + k % 3);
-        parts[2] += &format!(
-            "r{k} = {{ from = \"{before}\", to = \"n{k}\", G = \"G{k} * (1 + 0.001 [1/K] * (n{k}.T - 20 \
-             [degC]))\" }}\n"
-        );
-        before = format!("n{k}");
+        parts[1] += &format!("{node} = {{ C = \"{} J/K\", T0 = \"20 degC\" }}\n", 5 + k % 3);
+        parts[2] +=
+            &format!("r{k} = {{ from = \"{before}\", to = \"{node}\", G = \"G{k}{factor}\" }}\n");
+        before = node;
     }
     let [parameters, nodes, paths] = parts;
-    let network = network(&format!(
+    network(&format!(
         "[param]\n{parameters}[boundary]\nair = {{ T = \"20 degC\" }}\n[node]\n{nodes}[resistor]\n\
-         {paths}[source]\nheat = {{ into = \"n999\", P = \"50 W\" }}\n[limit]\nhot = {{ of = \
-         \"n990.T\", below = \"500 degC\" }}\n[run]\nstop = \"1000 s\"\n"
-    ));
+         {paths}[source]\nheat = {{ into = \"{before}\", P = \"50 W\" }}\n[limit]\nhot = {{ of = \
+         \"n{}.T\", below = \"500 degC\" }}\n[run]\nstop = \"1000 s\"\n",
+        count * 99 / 100
+    ))
+}
+
+fn cost_of_gradient(network: &Network, tolerance: f64) -> String {
     let limit = network.limit_ids().next().unwrap();
     let parameters: Vec<ParameterId> = network.parameter_ids().collect();
-    for tolerance in [1e-4, 1e-6, 1e-8] {
-        let began = std::time::Instant::now();
-        let plain = run(&network, &until(1000.0, tolerance));
-        let once = began.elapsed();
-        let settings = Transient { trajectory: true, ..until(1000.0, tolerance) };
-        let began = std::time::Instant::now();
-        let solution = run(&network, &settings);
-        let kept = began.elapsed();
-        let by = solution
-            .margin_gradient((limit, Functional::Last), &parameters, &|_| Proceed::Continue)
-            .unwrap()
-            .by;
-        let all = began.elapsed();
-        println!("{tolerance}: run {once:?}, kept {kept:?}, with gradient {all:?}, {:e}", by[7]);
-        println!("{:?} {:?}", plain.statistics(), solution.method());
-    }
+    let began = std::time::Instant::now();
+    run(network, &until(1000.0, tolerance));
+    let once = began.elapsed();
+    let settings = Transient { trajectory: true, ..until(1000.0, tolerance) };
+    let began = std::time::Instant::now();
+    let solution = run(network, &settings);
+    let way =
+        solution.margin_gradient((limit, Functional::Last), &parameters, &|_| Proceed::Continue);
+    let all = began.elapsed();
+    let (by, ratio) = (way.unwrap().by, all.as_secs_f64() / once.as_secs_f64());
+    format!("run {once:?}, with gradient {all:?}: {ratio:.2} runs, {:e}", by[992])
 }

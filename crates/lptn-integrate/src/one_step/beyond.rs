@@ -49,7 +49,14 @@ impl SeriesStep<'_> {
     /// The weights of the terms of the solution after a share of the step from 0 to 1.
     #[must_use]
     pub fn weights(&self, share: f64) -> [f64; MOST] {
-        series::change(self.used, share)
+        Self::weigh(self.used, share)
+    }
+
+    /// The weights of the terms of a solution with this many of them, at most 12, after a share of
+    /// the step from 0 to 1.
+    #[must_use]
+    pub fn weigh(used: usize, share: f64) -> [f64; MOST] {
+        series::change(used, share)
     }
 }
 

@@ -121,20 +121,27 @@ impl Pass {
         add: &mut Add<'_>,
     ) -> Result<(), InputError> {
         let Self { slots, stack, boundaries, reads, .. } = self;
-        for (id, lanes) in &reads.conductors {
-            let id = *id;
-            let conductor = &network.conductors()[id.index()];
+        for path in &reads.conductors {
+            let conductor = &network.conductors()[path.id.index()];
             let ends = [conductor.from, conductor.to].map(|end| network.vertex(end));
-            let dependence = network.parts.dependence(id);
             let dual = |vertex: usize| of_vertex(vertex, network, boundaries, temperatures);
-            place_ends(slots, &dependence, ends, &dual);
             let (from, to) = (dual(ends[0]), dual(ends[1]));
-            let at = At { by_parameters: true, ..At::path((slots, stack), network.along(id)) };
-            let received = network.received(conductor, at, from, to);
-            let received =
-                received.map_err(|failed| network.failed(Item::Conductor(id), failed, scope))?;
+            let received = if let Some(conductance) = path.conductance {
+                let heat = conductance * (from - to);
+                Ok([-heat, heat])
+            } else if let Some(value) = path.value {
+                [slots[slot::FROM as usize], slots[slot::TO as usize]] = [from, to];
+                network.received_of((&conductor.law, value), At::new((slots, stack)), from, to)
+            } else {
+                place_ends(slots, &network.parts.dependence(path.id), ends, &dual);
+                let along = network.along(path.id);
+                let at = At { by_parameters: true, ..At::path((slots, stack), along) };
+                network.received(conductor, at, from, to)
+            };
+            let received = received
+                .map_err(|failed| network.failed(Item::Conductor(path.id), failed, scope))?;
             for (vertex, heat) in ends.into_iter().zip(received) {
-                each(lanes, &heat.derivatives).for_each(|(k, slope)| add(vertex, k, slope));
+                each(&path.lanes, &heat.derivatives).for_each(|(k, slope)| add(vertex, k, slope));
             }
         }
         Ok(())

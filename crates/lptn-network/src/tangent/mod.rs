@@ -16,11 +16,14 @@ mod refusal;
 
 use std::collections::BTreeMap;
 
+use lptn_units::Scalar;
+
 use crate::End;
 use crate::evaluation::Slope;
 use crate::id::{
     BoundaryId, ConductorId, ControlId, NodeId, ParameterId, SignalId, SourceId, SwitchId,
 };
+use crate::law::{At, ConductorFlow};
 use crate::network::Network;
 use crate::slot;
 use content::Content;
@@ -64,12 +67,23 @@ struct Pass {
 /// All that changes with a variable of one pass.
 #[derive(Clone, Debug, Default)]
 struct Reads {
-    conductors: Vec<(ConductorId, Lanes)>,
+    conductors: Vec<Path>,
     sources: Vec<(SourceId, Lanes)>,
     boundaries: Vec<BoundaryId>,
     /// Signals that are expressions of the parameters.
     signals: Vec<SignalId>,
     contents: Vec<(Content, Lanes)>,
+}
+
+/// A conductor that changes with a variable of one pass.
+#[derive(Clone, Debug)]
+struct Path {
+    id: ConductorId,
+    lanes: Lanes,
+    /// The value of its law, if it is constant over a run.
+    value: Option<Slope>,
+    /// The same if it is a conductance in W/K.
+    conductance: Option<Slope>,
 }
 
 impl Network {
@@ -160,7 +174,7 @@ impl Network {
         for (places, reads) in reads::passes(self, variables, &given) {
             let mut pass = Pass::new(self, &places, &given);
             refusal::check_rings(self, influence, &mut pass)?;
-            pass.take(reads, &mut bodies)?;
+            pass.take(self, reads, &mut bodies)?;
             passes.push(pass);
         }
         Ok(Tangents { variables: variables.to_vec(), passes })
@@ -171,6 +185,11 @@ impl Tangents {
     /// The parameters and signals that derivatives are taken by, in this order.
     pub fn variables(&self) -> &[Variable] {
         &self.variables
+    }
+
+    /// True if the heat content of a node changes with one of the variables.
+    pub fn change_contents(&self) -> bool {
+        self.passes.iter().any(|pass| !pass.reads.contents.is_empty())
     }
 
     /// The first node with a capacity over temperature whose heat content changes with one of the
@@ -220,12 +239,18 @@ impl Pass {
     /// Keeps the heats and contents that change with the variables.
     fn take(
         &mut self,
+        network: &Network,
         reads: BTreeMap<Read, Lanes>,
         bodies: &mut content::Bodies<'_>,
     ) -> Result<(), NoTangents> {
         for (read, lanes) in reads {
             match read {
-                Read::Conductor(id) => self.reads.conductors.push((id, lanes)),
+                Read::Conductor(id) => {
+                    let value = self.constant_law(network, id);
+                    let conducts = matches!(network.flow(id), ConductorFlow::Conductance(_));
+                    let conductance = value.filter(|value| conducts && value.is_finite());
+                    self.reads.conductors.push(Path { id, lanes, value, conductance });
+                }
                 Read::Source(id) => self.reads.sources.push((id, lanes)),
                 Read::Boundary(id) => self.reads.boundaries.push(id),
                 Read::Signal(id) => self.reads.signals.push(id),
@@ -237,5 +262,13 @@ impl Pass {
             }
         }
         Ok(())
+    }
+
+    /// The value of the law of a conductor that reads neither temperatures nor the time.
+    fn constant_law(&mut self, network: &Network, id: ConductorId) -> Option<Slope> {
+        let law = &network.conductors()[id.index()].law;
+        let constant = network.flow(id) != ConductorFlow::Variable && law.fluid().is_none();
+        // a value that fails is told where it is used
+        constant.then(|| At::new((&mut self.slots, &mut self.stack)).value(law).ok()).flatten()
     }
 }

@@ -1,18 +1,9 @@
 //! The integral of a margin over a run.
 
 use super::error::BackwardError;
+use super::running::GAUSS;
 use super::way::Way;
 use crate::margin::Point;
-
-/// Points and weights of Gauss and Legendre's rule on (-1, 1), exact to degree 9; the last number is
-/// the weight of the rule through three of them, exact to degree 3.
-const GAUSS: [[f64; 3]; 5] = [
-    [-0.906_179_845_938_664, 0.236_926_885_056_189_08, 0.405_928_877_095_966_4],
-    [-0.538_469_310_105_683_1, 0.478_628_670_499_366_47, 0.0],
-    [0.0, 0.568_888_888_888_888_9, 1.188_142_245_808_067_3],
-    [0.538_469_310_105_683_1, 0.478_628_670_499_366_47, 0.0],
-    [0.906_179_845_938_664, 0.236_926_885_056_189_08, 0.405_928_877_095_966_4],
-];
 
 /// Parts of a run over which a margin is integrated first.
 const PARTS: f64 = 100.0;
@@ -74,11 +65,7 @@ impl Integral {
             self.points.extend(points);
             return Ok(());
         }
-        let Some(left) = halvings.checked_sub(1) else {
-            let limit = &way.asked.margin.system.network().limits();
-            let name = limit[way.asked.margin.limit.index()].text.clone();
-            return Err(BackwardError::Unresolved { name });
-        };
+        let Some(left) = halvings.checked_sub(1) else { return Err(way.asked.unresolved()) };
         self.add(way, stretch, ([from, middle], left))?;
         self.add(way, stretch, ([middle, to], left))
     }

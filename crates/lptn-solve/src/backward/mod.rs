@@ -15,6 +15,7 @@ mod error;
 mod integral;
 mod moment;
 mod rate;
+mod running;
 mod system;
 mod transposed;
 mod turns;
@@ -95,6 +96,12 @@ impl Asked<'_> {
             (from - room..=to + room).contains(&time)
         };
         self.trajectory.stretches.iter().enumerate().filter(move |(_, s)| holds(s)).map(|(k, _)| k)
+    }
+
+    /// The error of a result whose integral does not settle.
+    fn unresolved(&self) -> BackwardError {
+        let limits = self.margin.system.network().limits();
+        BackwardError::Unresolved { name: limits[self.margin.limit.index()].text.clone() }
     }
 
     /// End of the run in s.

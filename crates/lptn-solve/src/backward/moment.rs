@@ -69,6 +69,16 @@ impl<'a> Moment<'a> {
         }
     }
 
+    /// True for a network with constant coefficients.
+    pub(super) fn is_constant(&self) -> bool {
+        self.system.is_linear() && !self.unfold.carries_heat()
+    }
+
+    /// True if the heat content of a node changes with a parameter.
+    pub(super) fn changes_contents(&self) -> bool {
+        self.tangents.change_contents()
+    }
+
     /// Begins at these temperatures in K of the massless nodes that are solved for.
     pub(super) fn stand(&mut self, branch: &[f64]) {
         if !branch.is_empty() {
@@ -170,6 +180,9 @@ impl<'a> Moment<'a> {
         let mut all = nodes.to_vec();
         all.resize(nodes.len() + system.network().boundaries().len(), 0.0);
         system.add_tangent_heat(&mut self.tangents, &self.work, &all, out)?;
+        if !self.changes_contents() {
+            return Ok(());
+        }
         let mut contents = vec![0.0; nodes.len()];
         let states = system.states().iter().zip(held);
         states.for_each(|(id, held)| contents[id.index()] = *held);

@@ -20,7 +20,13 @@ pub(super) struct Adjoint<'a> {
     /// The margin that is integrated and the nodes that it reads; `None` for a result of one moment.
     integrated: Option<(Margin<'a>, Vec<NodeId>)>,
     pub(super) scale: f64,
+    /// Running integrals, by the parameters; 0 if they are taken from outside.
+    running: usize,
     parameters: usize,
+    /// True for constant coefficients and weights.
+    pub(super) constant: bool,
+    /// True if the Jacobian was taken in this stretch.
+    linear: bool,
     /// The time in s of the run at which the moment is.
     now: f64,
     state: Vec<f64>,
@@ -41,12 +47,17 @@ impl<'a> Adjoint<'a> {
     ) -> Self {
         let system = moment.system;
         let (states, all) = (system.states().len(), system.unknowns().len());
+        let steady = integrated.is_none_or(|margin| margin.is_plain());
+        let constant = steady && moment.is_constant();
         let mut adjoint = Self {
             moment,
             stretch,
             integrated: integrated.map(|margin| (margin, margin.nodes())),
             scale: 1.0,
+            running: if constant { 0 } else { parameters },
             parameters,
+            constant,
+            linear: false,
             now: f64::NAN,
             state: vec![0.0; states],
             weights: vec![0.0; system.network().nodes().len()],
@@ -63,7 +74,12 @@ impl<'a> Adjoint<'a> {
     pub(super) fn enter(&mut self, stretch: &'a Stretch) {
         self.stretch = stretch;
         self.moment.set_positions(stretch.positions.as_ref());
-        self.now = f64::NAN;
+        (self.now, self.linear) = (f64::NAN, false);
+    }
+
+    /// Takes running integrals, whatever the coefficients.
+    pub(super) fn integrate(&mut self) {
+        (self.constant, self.running) = (false, self.parameters);
     }
 
     /// The margin is read again, at another scale.
@@ -79,7 +95,10 @@ impl<'a> Adjoint<'a> {
         self.stretch.at(time, &mut self.state);
         self.moment.stand(self.stretch.branch(time));
         self.moment.go((time, self.stretch.inside), &self.state)?;
-        self.moment.linearise()?;
+        if !(self.constant && self.linear) {
+            self.moment.linearise()?;
+            self.linear = true;
+        }
         if let Some((margin, nodes)) = &self.integrated {
             let point = self.point(time);
             self.weights = margin.by_nodes(&point, nodes)?;
@@ -118,9 +137,20 @@ impl<'a> Adjoint<'a> {
         Ok(())
     }
 
-    fn integrands(&mut self, time: f64, x: &[f64], q: &mut [f64]) -> Result<(), BackwardError> {
-        self.balance(time, x)?;
+    /// Writes the rates of the derivatives by the parameters.
+    pub(super) fn integrands(
+        &mut self,
+        time: f64,
+        x: &[f64],
+        q: &mut [f64],
+    ) -> Result<(), BackwardError> {
         q.fill(0.0);
+        if self.constant && !self.moment.changes_contents() {
+            self.go(time)?;
+            self.unknowns.copy_from_slice(x);
+            return self.moment.add_driven((&self.weights, &self.unknowns), &[], q);
+        }
+        self.balance(time, x)?;
         let capacities = self.moment.system.capacity().iter();
         let held: Vec<f64> = self.rows.iter().zip(capacities).map(|(row, c)| -row / c).collect();
         self.moment.add_driven((&self.weights, &self.unknowns), &held, q)
@@ -155,7 +185,11 @@ impl OdeSystem for Adjoint<'_> {
     }
 
     fn symmetric(&self) -> bool {
-        false
+        self.constant && self.moment.system.is_symmetric()
+    }
+
+    fn jacobian_is_constant(&self) -> bool {
+        self.constant
     }
 
     fn jacobian(&mut self, t: f64, _: &[f64], values: &mut [f64]) -> Result<(), Retry> {
@@ -170,7 +204,7 @@ impl OdeSystem for Adjoint<'_> {
     }
 
     fn quadrature_count(&self) -> usize {
-        self.parameters
+        self.running
     }
 
     fn quadrature(&mut self, t: f64, x: &[f64], q: &mut [f64]) -> Result<(), Retry> {

@@ -1,15 +1,18 @@
 //! The way back through a run, stretch by stretch.
 
-use lptn_integrate::{IntegrateError, Integrator, Options};
+use lptn_integrate::{IntegrateError, Integrator, OneStep, Options};
 
 use super::error::BackwardError;
 use super::moment::Moment;
 use super::rate::Read;
 use super::system::Adjoint;
 use super::{Aim, Asked};
+use crate::error::TransientError;
 use crate::margin::Point;
+use crate::sensitive_run::step;
 use crate::settings::{Proceed, Progress};
 use crate::stepper::cvodes;
+use crate::trajectory::Series;
 
 /// Tolerance of the adjoint as a share of its largest value, for one of the run of 1 K. The running
 /// integrals have no tolerance of their own and err by up to a hundred times this.
@@ -31,10 +34,16 @@ pub(super) struct Way<'a> {
     pub(super) integrator: Box<dyn Integrator<Adjoint<'a>> + 'a>,
     /// The result of one moment; `None` for an integrated one.
     pub(super) aim: Option<Aim>,
+    /// Tolerance of the adjoint as a part of its largest value.
+    pub(super) tolerance: f64,
     /// The adjoint of the heat contents of the states, in the unit of the result per J.
     pub(super) adjoint: Vec<f64>,
     /// Derivatives by the parameters so far.
     pub(super) found: Vec<f64>,
+    /// Step of each parameter in its unit.
+    pub(super) steps: Vec<f64>,
+    /// Norm of the integrals of the absolute derivatives so far, without running integrals.
+    pub(super) size: f64,
     /// Running integrals that were taken.
     taken: Vec<f64>,
     /// For each stretch the change of the result with the time of its end that later switches add.
@@ -54,13 +63,16 @@ impl<'a> Way<'a> {
         let zero = vec![0.0; system.states().len()];
         let tolerance = (SHARE * asked.solution.tolerance).clamp(FINEST, COARSEST);
         let options = Options { tolerance, ..Options::default() };
-        let integrator = cvodes(adjoint, (-from, &zero), &options)?;
+        let integrator = stepper(adjoint, (-from, &zero), &options)?;
         Ok(Self {
             asked,
             integrator,
             aim,
+            tolerance,
             adjoint: zero,
             found: vec![0.0; parameters],
+            steps: asked.parameters.iter().map(|id| step(system.network(), *id)).collect(),
+            size: 0.0,
             taken: vec![0.0; parameters],
             waits: vec![0.0; stretches.len()],
         })
@@ -136,10 +148,7 @@ impl<'a> Way<'a> {
         self.restart(scale)?;
         self.integrator.set_stop(-from);
         while self.integrator.time() < -from {
-            let step = self.asked.trajectory.stretches[stretch].step(-self.integrator.time());
-            self.integrator.set_longest_step(step);
-            let stepped = self.integrator.step();
-            stepped.map_err(|error| self.failed(error))?;
+            self.step(stretch)?;
             self.report()?;
             let (size, [low, high]) = (largest(self.integrator.state()), SCALED);
             if size > high || size < low && size > 0.0 && !is_zero {
@@ -149,6 +158,24 @@ impl<'a> Way<'a> {
             }
         }
         self.take()
+    }
+
+    /// A step back, with the derivatives along it.
+    fn step(&mut self, stretch: usize) -> Result<(), BackwardError> {
+        let from = -self.integrator.time();
+        if !self.integrator.system().constant {
+            let longest = self.asked.trajectory.stretches[stretch].step(from);
+            self.integrator.set_longest_step(longest);
+        }
+        loop {
+            let stepped = self.integrator.step().map_err(|error| self.failed(error))?;
+            let Some(series) = self.integrator.series() else { return Ok(()) };
+            if stepped.to >= series.span.1 {
+                let span = (-stepped.to, from);
+                let series = Series::of(&series);
+                return self.add_step(stretch, (&series, span));
+            }
+        }
     }
 
     /// Reports the time that is reached on the way back; it may be interrupted.
@@ -195,6 +222,20 @@ impl<'a> Way<'a> {
         self.taken = now;
         Ok(())
     }
+}
+
+/// The integrator: the one-step method for constant coefficients, which takes no running integrals.
+fn stepper<'a>(
+    mut adjoint: Adjoint<'a>,
+    at: (f64, &[f64]),
+    options: &Options,
+) -> Result<Box<dyn Integrator<Adjoint<'a>> + 'a>, BackwardError> {
+    if OneStep::suits(&mut adjoint, at, options.tolerance) {
+        let integrator = OneStep::new(adjoint, at.0, at.1, options);
+        return Ok(Box::new(integrator.map_err(TransientError::Integrator)?));
+    }
+    adjoint.integrate();
+    Ok(cvodes(adjoint, at, options)?)
 }
 
 fn largest(values: &[f64]) -> f64 {

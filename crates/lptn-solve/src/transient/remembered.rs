@@ -23,7 +23,9 @@ impl Run<'_> {
 
     /// Keeps a step or a part of it.
     pub(super) fn remember_step(&mut self, from: f64, to: f64) -> Result<(), Break> {
-        if self.trajectory.is_none() {
+        let Some(trajectory) = &mut self.trajectory else { return Ok(()) };
+        if let Some(series) = self.integrator.series() {
+            trajectory.add_series((from, to), &series);
             return Ok(());
         }
         let mut state = self.integrator.state().to_vec();

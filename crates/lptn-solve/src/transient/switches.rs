@@ -11,16 +11,23 @@ use crate::times::Segment;
 
 impl Transient {
     /// The integrator: pieces of the run prove the times of switches, and the one-step method has
-    /// none. A trajectory consists of polynomials, whatever method the network asks for.
+    /// none. A trajectory consists of polynomials or series.
     pub(super) fn integrator_for(&self, system: &ThermalSystem) -> IntegratorChoice {
         let switches = self.certify && system.network().has_events();
         match self.integrator {
-            _ if self.trajectory && cfg!(feature = "cvodes") => IntegratorChoice::Cvode,
+            IntegratorChoice::Esdirk if self.trajectory && cfg!(feature = "cvodes") => {
+                IntegratorChoice::Cvode
+            }
             IntegratorChoice::Auto if switches && cfg!(feature = "cvodes") => {
                 IntegratorChoice::Cvode
             }
             choice => choice,
         }
+    }
+
+    /// Parts between breakpoints that speak for a Runge-Kutta method. A trajectory has no curves of it.
+    pub(super) fn parts(&self, segments: &[Segment]) -> usize {
+        if self.trajectory { 0 } else { segments.len() }
     }
 }
 
