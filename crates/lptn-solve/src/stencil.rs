@@ -26,14 +26,32 @@ pub(crate) fn slope<E>(
 ) -> Result<Option<f64>, E> {
     let mut last = None;
     for stencil in &STENCILS {
-        let values: Result<Vec<f64>, E> =
-            stencil.iter().map(|(place, _)| of(place * step)).collect();
-        match values {
-            Ok(values) => return Ok(smooth(stencil, &values, step)),
+        match by(stencil, step, &mut of) {
             Err(error) => last = Some(error),
+            found => return found,
         }
     }
     last.map_or(Ok(None), Err)
+}
+
+/// The same from values at 0 and below.
+///
+/// # Errors
+/// The error of `of`.
+pub(crate) fn slope_below<E>(
+    step: f64,
+    mut of: impl FnMut(f64) -> Result<f64, E>,
+) -> Result<Option<f64>, E> {
+    by(&STENCILS[2], step, &mut of)
+}
+
+fn by<E>(
+    stencil: &[(f64, f64); 5],
+    step: f64,
+    of: &mut impl FnMut(f64) -> Result<f64, E>,
+) -> Result<Option<f64>, E> {
+    let values: Result<Vec<f64>, E> = stencil.iter().map(|(place, _)| of(place * step)).collect();
+    Ok(smooth(stencil, &values?, step))
 }
 
 fn smooth(stencil: &[(f64, f64); 5], values: &[f64], step: f64) -> Option<f64> {
@@ -57,7 +75,7 @@ const FOURTH: [f64; 5] = [1.0, -4.0, 6.0, -4.0, 1.0];
 
 #[cfg(test)]
 mod tests {
-    use super::slope;
+    use super::{slope, slope_below};
 
     type Found = Result<Option<f64>, ()>;
 
@@ -70,6 +88,12 @@ mod tests {
             let one: Found = slope(1e-3, |x| if x * side < 0.0 { Err(()) } else { Ok(x.exp()) });
             assert!((one.ok().flatten().unwrap_or(0.0) - 1.0).abs() < 1e-10);
         }
+    }
+
+    #[test]
+    fn values_above_are_not_read() {
+        let found: Found = slope_below(1e-3, |x| if x > 0.0 { Err(()) } else { Ok(x.exp()) });
+        assert!((found.ok().flatten().unwrap_or(0.0) - 1.0).abs() < 1e-10);
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::{Aim, Asked};
 use crate::bracket::Bracket;
 use crate::events::EventKind;
 use crate::margin::Point;
-use crate::stencil::slope;
+use crate::stencil::slope_below;
 
 /// The change of the fastest temperature in K over a step of time for a derivative by it.
 const KELVIN: f64 = 0.01;
@@ -39,10 +39,7 @@ impl Asked<'_> {
         let fastest = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
         let longest = (to - from).min(known.step(time)) / PARTS;
         let by = if fastest > 0.0 { longest.min(KELVIN / fastest) } else { longest };
-        let found = slope(by, |change| {
-            if change > 0.0 {
-                return Err(BackwardError::Unresolved { name: String::new() });
-            }
+        let found = slope_below(by, |change| {
             let moved: Vec<f64> =
                 state.iter().zip(&rates).map(|(y, rate)| y + rate * change).collect();
             let at = (time + change, point.at.1);
