@@ -2,16 +2,19 @@
 //! take them. [`kernels`](crate::kernels) has sums in several parts, for long vectors.
 
 /// Sum of `x[i] y[i]`.
+#[inline]
 pub fn dot(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).map(|(x, y)| x * y).sum()
 }
 
 /// The length of a vector.
+#[inline]
 pub fn norm(x: &[f64]) -> f64 {
     dot(x, x).sqrt()
 }
 
 /// `sum += factor x`
+#[inline]
 pub fn add(sum: &mut [f64], factor: f64, x: &[f64]) {
     sum.iter_mut().zip(x).for_each(|(sum, x)| *sum += factor * x);
 }

@@ -1,14 +1,29 @@
 //! A filter that takes one reading after the other.
 
+use lptn_integrate::vectors::add;
+
 use super::{Fade, Gaussian, Reading, Step, weighed};
 
 /// The state after the readings up to now.
 #[derive(Clone, Debug)]
 pub struct Filter {
     state: Gaussian,
-    log_likelihood: f64,
-    /// Room for two matrices.
-    room: [Vec<f64>; 2],
+    likelihood: Likelihood,
+    room: Room,
+}
+
+/// Room for the numbers of one step or one reading.
+#[derive(Clone, Debug)]
+struct Room {
+    /// Part of a product of matrices.
+    half: Vec<f64>,
+    mean: Vec<f64>,
+    /// The covariance of a reading with each state.
+    spread: Vec<f64>,
+    /// The same over the standard deviation of the reading.
+    unit: Vec<f64>,
+    /// The change of the states per unit of the residual.
+    gain: Vec<f64>,
 }
 
 /// Difference of a reading from its prediction.
@@ -23,8 +38,10 @@ pub struct Innovation {
 impl Filter {
     /// Begins with the state before the first reading.
     pub fn new(state: Gaussian) -> Self {
-        let room = vec![0.0; state.covariance.len()];
-        Self { state, log_likelihood: 0.0, room: [room.clone(), room] }
+        let (n, half) = (state.mean.len(), vec![0.0; state.covariance.len()]);
+        let row = || vec![0.0; n];
+        let room = Room { half, mean: row(), spread: row(), unit: row(), gain: row() };
+        Self { state, likelihood: Likelihood::default(), room }
     }
 
     /// The present state.
@@ -35,19 +52,16 @@ impl Filter {
     /// The logarithm of the probability density of all readings up to now, by their innovations
     /// (F. C. Schweppe, IEEE Trans. Inf. Theory 11 (1965) 61).
     pub fn log_likelihood(&self) -> f64 {
-        self.log_likelihood
+        self.likelihood.logarithm()
     }
 
     /// Goes on to the time of the next reading.
     pub fn predict(&mut self, step: &Step) {
-        let n = self.state.mean.len();
         let Gaussian { mean, covariance } = &mut self.state;
-        *mean = step.transition.advanced(&step.fades, mean);
+        let (n, d) = (mean.len(), step.transition.side());
+        step.transition.advance(&step.fades, mean, &mut self.room.mean);
         mean.iter_mut().zip(step.input.iter()).for_each(|(x, u)| *x += u);
-        let [half, out] = &mut self.room;
-        step.transition.carried(&step.fades, covariance, (half, out));
-        std::mem::swap(covariance, out);
-        let d = step.transition.side();
+        step.transition.carry(&step.fades, covariance, &mut self.room.half);
         let rows = covariance.chunks_exact_mut(n).zip(step.noise.chunks_exact(d.max(1)));
         rows.for_each(|(row, noise)| row.iter_mut().zip(noise).for_each(|(p, q)| *p += q));
         for (i, Fade { variance, .. }) in step.fades.iter().enumerate() {
@@ -55,40 +69,64 @@ impl Filter {
         }
     }
 
-    /// Takes a reading in.
+    /// Takes a reading in: `P - u u'`, with `u` the covariance of the reading with the states over
+    /// its standard deviation.
     pub fn update(&mut self, reading: &Reading) -> Innovation {
-        self.taken(reading).1
+        let Room { spread, unit, gain, .. } = &mut self.room;
+        self.state.spread_to(&reading.of, spread);
+        let Gaussian { mean, covariance } = &mut self.state;
+        let variance = weighed(&reading.of, spread) + reading.variance;
+        let residual = reading.value - weighed(&reading.of, mean);
+        let deviation = variance.sqrt();
+        unit.iter_mut().zip(&*spread).for_each(|(u, s)| *u = s / deviation);
+        gain.iter_mut().zip(&*spread).for_each(|(k, s)| *k = s / variance);
+        add(mean, residual, gain);
+        for (row, own) in covariance.chunks_exact_mut(unit.len()).zip(&*unit) {
+            if own.abs() > 0.0 {
+                add(row, -own, unit);
+            }
+        }
+        self.likelihood.take(residual, variance);
+        Innovation { residual, variance }
     }
 
-    /// The same, with the change of the states per unit of the residual first.
-    pub(super) fn taken(&mut self, reading: &Reading) -> (Vec<f64>, Innovation) {
-        let spread = self.state.spread(&reading.of);
-        let variance = weighed(&reading.of, &spread) + reading.variance;
-        let residual = reading.value - weighed(&reading.of, &self.state.mean);
-        let gain: Vec<f64> = spread.iter().map(|p| p / variance).collect();
-        let Gaussian { mean, covariance } = &mut self.state;
-        mean.iter_mut().zip(&gain).for_each(|(x, k)| *x += k * residual);
-        joseph(covariance, (&spread, &gain), variance);
-        let size = (std::f64::consts::TAU * variance).ln();
-        self.log_likelihood -= 0.5 * (size + residual * residual / variance);
-        (gain, Innovation { residual, variance })
+    /// The change of the states per unit of the last residual.
+    pub(super) fn gain(&self) -> &[f64] {
+        &self.room.gain
     }
 }
 
-/// `(1 - k h) P (1 - k h)' + k r k'` (P. D. Joseph), which stays a covariance when rounded.
-fn joseph(covariance: &mut [f64], (spread, gain): (&[f64], &[f64]), variance: f64) {
-    let n = gain.len();
-    for i in 0..n {
-        let (own, more) = (gain[i], spread[i]);
-        if own.abs() + more.abs() <= 0.0 {
-            continue;
-        }
-        let row = covariance[i * n..][..=i].iter_mut().zip(spread.iter().zip(gain));
-        row.for_each(|(p, (s, k))| *p = *p - own * s - more * k + own * k * variance);
+/// The probability density of readings.
+#[derive(Clone, Debug)]
+struct Likelihood {
+    /// Sum of the squares of the residuals over their variances.
+    squares: f64,
+    count: usize,
+    /// The product of variances is that of `e` to the power `logarithms`, and `product`.
+    logarithms: f64,
+    product: f64,
+}
+
+impl Default for Likelihood {
+    fn default() -> Self {
+        Self { squares: 0.0, count: 0, logarithms: 0.0, product: 1.0 }
     }
-    for i in 0..n {
-        for j in 0..i {
-            covariance[j * n + i] = covariance[i * n + j];
+}
+
+impl Likelihood {
+    fn take(&mut self, residual: f64, variance: f64) {
+        self.squares += residual * residual / variance;
+        self.count += 1;
+        self.product *= variance;
+        // one logarithm for many factors
+        if !(1e-100..1e100).contains(&self.product) {
+            self.logarithms += self.product.ln();
+            self.product = 1.0;
         }
+    }
+
+    fn logarithm(&self) -> f64 {
+        let whole = self.count as f64 * std::f64::consts::TAU.ln();
+        -0.5 * (whole + self.logarithms + self.product.ln() + self.squares)
     }
 }

@@ -64,12 +64,17 @@ impl Gaussian {
 
     /// The covariance of a sum of states with each state.
     fn spread(&self, weights: &Weights) -> Vec<f64> {
-        let n = self.mean.len();
-        let mut spread = vec![0.0; n];
-        for &(place, weight) in weights {
-            add(&mut spread, weight, &self.covariance[place * n..][..n]);
-        }
+        let mut spread = vec![0.0; self.mean.len()];
+        self.spread_to(weights, &mut spread);
         spread
+    }
+
+    fn spread_to(&self, weights: &Weights, spread: &mut [f64]) {
+        let n = spread.len();
+        spread.fill(0.0);
+        for &(place, weight) in weights {
+            add(spread, weight, &self.covariance[place * n..][..n]);
+        }
     }
 }
 

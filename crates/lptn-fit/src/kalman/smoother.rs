@@ -71,7 +71,8 @@ impl Smoother {
 
     /// Takes a reading of the moment in.
     pub fn update(&mut self, reading: &Reading) -> Innovation {
-        let (gain, innovation) = self.filter.taken(reading);
+        let innovation = self.filter.update(reading);
+        let gain = self.filter.gain().to_vec();
         if let Some(moment) = self.moments.last_mut() {
             moment.readings.push(Taken { of: Rc::clone(&reading.of), gain, innovation });
         }
@@ -101,7 +102,7 @@ impl Smoother {
         let mut later = Later { pull: vec![0.0; n], hold: vec![0.0; n * n] };
         let mut pulls = vec![vec![0.0; n]; moves.len()];
         let (mut last, mut back) = (None::<Rc<Transition>>, None::<Transition>);
-        let mut room = [vec![0.0; n * n], vec![0.0; n * n]];
+        let (mut row, mut half) = (vec![0.0; n], vec![0.0; n * n]);
         for (k, moment) in self.moments.iter().enumerate().rev() {
             for (i, taken) in moment.readings.iter().enumerate().rev() {
                 later.reading(taken);
@@ -114,8 +115,8 @@ impl Smoother {
                 (last, back) = (Some(Rc::clone(transition)), Some(transition.transposed()));
             }
             if let Some(back) = &back {
-                later.step(back, fades, &mut room);
-                pulls.iter_mut().for_each(|pull| *pull = back.advanced(fades, pull));
+                later.step(back, fades, (&mut row, &mut half));
+                pulls.iter_mut().for_each(|pull| back.advance(fades, pull, &mut row));
             }
         }
     }
@@ -232,10 +233,9 @@ impl Later {
         }
     }
 
-    fn step(&mut self, back: &Transition, fades: &[Fade], [half, out]: &mut [Vec<f64>; 2]) {
-        self.pull = back.advanced(fades, &self.pull);
-        back.carried(fades, &self.hold, (half, out));
-        std::mem::swap(&mut self.hold, out);
+    fn step(&mut self, back: &Transition, fades: &[Fade], (row, half): (&mut [f64], &mut [f64])) {
+        back.advance(fades, &mut self.pull, row);
+        back.carry(fades, &mut self.hold, half);
     }
 }
 

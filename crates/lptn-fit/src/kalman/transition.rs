@@ -48,32 +48,43 @@ impl Transition {
 
     /// `T x`, with a T that fades the states after the matrix.
     pub(crate) fn advanced(&self, fades: &[Fade], x: &[f64]) -> Vec<f64> {
-        let d = self.side();
-        let one = |i: usize| self.row(i).iter().map(|(k, a)| a * x[*k]).sum();
-        let mut all: Vec<f64> = (0..d).map(one).collect();
-        all.extend(x[d..].iter().enumerate().map(|(i, x)| left(fades, i) * x));
+        let (mut all, mut room) = (x.to_vec(), vec![0.0; self.side()]);
+        self.advance(fades, &mut all, &mut room);
         all
     }
 
-    /// `T b T'`, symmetric as `b` is, into `out`; `half` is T b.
-    pub(super) fn carried(&self, fades: &[Fade], b: &[f64], (half, out): (&mut [f64], &mut [f64])) {
+    /// The same in place; `room` has at least one place for each row of the matrix.
+    pub(super) fn advance(&self, fades: &[Fade], x: &mut [f64], room: &mut [f64]) {
+        let d = self.side();
+        for (i, out) in room.iter_mut().enumerate().take(d) {
+            *out = self.row(i).iter().map(|(k, a)| a * x[*k]).sum();
+        }
+        x[..d].copy_from_slice(&room[..d]);
+        x[d..].iter_mut().zip(fades).for_each(|(x, fade)| *x *= fade.left);
+    }
+
+    /// `T b T'` in place, symmetric as `b` is; `half` is room for T b.
+    pub(super) fn carry(&self, fades: &[Fade], b: &mut [f64], half: &mut [f64]) {
         let (d, n) = (self.side(), b.len().isqrt());
+        let half = &mut half[..d * n];
         half.fill(0.0);
         for (i, half) in half.chunks_exact_mut(n).enumerate() {
-            match i.checked_sub(d) {
-                None => self.row(i).iter().for_each(|(k, a)| add(half, *a, &b[k * n..][..n])),
-                Some(behind) => add(half, left(fades, behind), &b[i * n..][..n]),
+            self.row(i).iter().for_each(|(k, a)| add(half, *a, &b[k * n..][..n]));
+        }
+        for (i, half) in half.chunks_exact(n).enumerate() {
+            for j in 0..=i {
+                let sum = self.row(j).iter().map(|(k, a)| half[*k] * a).sum();
+                (b[i * n + j], b[j * n + i]) = (sum, sum);
+            }
+            for j in d..n {
+                let faded = half[j] * left(fades, j - d);
+                (b[i * n + j], b[j * n + i]) = (faded, faded);
             }
         }
-        for i in 0..n {
-            let half = &half[i * n..][..n];
-            for j in 0..=i {
-                let sum = match j.checked_sub(d) {
-                    None => self.row(j).iter().map(|(k, a)| half[*k] * a).sum(),
-                    Some(behind) => half[j] * left(fades, behind),
-                };
-                (out[i * n + j], out[j * n + i]) = (sum, sum);
-            }
+        for (i, row) in b.chunks_exact_mut(n).skip(d).enumerate() {
+            let own = left(fades, i);
+            let later = row[d..].iter_mut().enumerate();
+            later.for_each(|(j, b)| *b *= own * left(fades, j));
         }
     }
 
@@ -91,4 +102,31 @@ impl Transition {
 /// The part that is left of a state after the matrix.
 fn left(fades: &[Fade], behind: usize) -> f64 {
     fades.get(behind).map_or(1.0, |fade| fade.left)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Fade, Transition};
+
+    /// A matrix, a state that fades and one that stays: `T b T'` by hand.
+    #[test]
+    fn analytic_a_covariance_is_carried_by_matrix_and_fades() {
+        let transition = Transition::of(&[1.0, 2.0, 0.0, 3.0]);
+        let fades = [Fade { left: 0.5, variance: 0.0 }];
+        let mut b = [
+            [4.0, 1.0, 2.0, 8.0],
+            [1.0, 5.0, 6.0, 3.0],
+            [2.0, 6.0, 7.0, 10.0],
+            [8.0, 3.0, 10.0, 9.0],
+        ]
+        .concat();
+        transition.carry(&fades, &mut b, &mut [0.0; 16]);
+        let expected = [
+            [28.0, 33.0, 7.0, 14.0],
+            [33.0, 45.0, 9.0, 9.0],
+            [7.0, 9.0, 1.75, 5.0],
+            [14.0, 9.0, 5.0, 9.0],
+        ];
+        assert_eq!(b, expected.concat());
+    }
 }
