@@ -2,6 +2,7 @@
 
 use std::io::{ErrorKind, Read as _};
 use std::path::Path;
+use std::sync::Arc;
 
 use lptn_assembly::{AssemblyError, ThermalSystem};
 use lptn_netlist::{
@@ -15,6 +16,7 @@ use lptn_units::{Dimension, Problem, Quantity, Type, Unit, UnitError, parse_quan
 use crate::belief::Belief;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
+use crate::known_columns::KnownColumns;
 use crate::messages;
 use crate::overridden;
 use crate::parameter;
@@ -104,13 +106,15 @@ fn is_netlist(file: &Path) -> bool {
 #[derive(Clone, Debug)]
 pub struct Input {
     /// The file.
-    pub text: Given,
+    pub text: Arc<Given>,
     /// The netlist, with the values that were set.
     pub netlist: Netlist,
     /// Everything that was set in it: by the load case, then separately.
     pub set: Vec<String>,
     /// The words of the command that asked, for reports; empty if a program asked.
     pub command: Vec<String>,
+    /// Names and units of its columns.
+    pub columns: KnownColumns,
 }
 
 /// Sets values in a netlist: those of the load case first, then those of `assignments`.
@@ -184,7 +188,7 @@ impl Input {
         belief: &Belief<'_>,
         settings: (Option<&str>, &[String]),
     ) -> Result<Self, Failure> {
-        let text = read(file)?;
+        let text = Arc::new(read(file)?);
         let netlist = parse(&text)?;
         Self::of((text, netlist), belief, settings)
     }
@@ -194,7 +198,7 @@ impl Input {
     /// # Errors
     /// All problems of the values.
     pub fn of(
-        (mut text, mut netlist): (Given, Netlist),
+        (mut text, mut netlist): (Arc<Given>, Netlist),
         belief: &Belief<'_>,
         (case, assignments): (Option<&str>, &[String]),
     ) -> Result<Self, Failure> {
@@ -202,9 +206,10 @@ impl Input {
         let set = apply(&mut netlist, &text, (case, assignments))?;
         if let Some(case) = case {
             // next to the results of the other cases
-            text.stem = folder_name(format!("{}_{case}", text.stem).replace(['/', '\\'], "_"));
+            let stem = folder_name(format!("{}_{case}", text.stem).replace(['/', '\\'], "_"));
+            Arc::make_mut(&mut text).stem = stem;
         }
-        Ok(Self { text, netlist, set, command: Vec::new() })
+        Ok(Self { text, netlist, set, command: Vec::new(), columns: KnownColumns::default() })
     }
 
     /// The same with another stop of the run and another interval between its rows. They are
@@ -213,7 +218,7 @@ impl Input {
     /// # Errors
     /// As [`Input::of`], a text that is not a time, and a time that does not fit the run.
     pub fn of_run(
-        (text, mut netlist): (Given, Netlist),
+        (text, mut netlist): (Arc<Given>, Netlist),
         (belief, times): (&Belief<'_>, [Option<&str>; 2]),
         settings: (Option<&str>, &[String]),
     ) -> Result<Self, Failure> {

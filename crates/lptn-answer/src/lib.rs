@@ -32,6 +32,7 @@ pub mod graph;
 pub mod impedance;
 pub mod infer;
 pub mod input;
+pub mod known_columns;
 pub mod limits;
 pub mod listener;
 pub mod loaded;

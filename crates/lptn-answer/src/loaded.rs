@@ -14,7 +14,7 @@ use crate::input::{self, Given, Input};
 /// A question with its values gets the same [`Input`] as if the file were read for it.
 #[derive(Clone, Debug)]
 pub struct Loaded {
-    text: Given,
+    text: Arc<Given>,
     /// The netlist without any value that is set.
     netlist: Netlist,
     /// Values that are set in every question, before its own.
@@ -43,8 +43,8 @@ impl Loaded {
     }
 
     fn of(text: Given, set: &[String]) -> Result<Self, Failure> {
-        let netlist = input::parse(&text)?;
-        let usual = Input::of((text.clone(), netlist.clone()), &Belief::Named, (None, set))?;
+        let (netlist, text) = (input::parse(&text)?, Arc::new(text));
+        let usual = Input::of((Arc::clone(&text), netlist.clone()), &Belief::Named, (None, set))?;
         Ok(Self { text, netlist, set: set.to_vec(), usual: Arc::new(usual) })
     }
 
@@ -77,7 +77,7 @@ impl Loaded {
             }
             _ => {
                 let set = [&self.set, assignments].concat();
-                let read = (self.text.clone(), self.netlist.clone());
+                let read = (Arc::clone(&self.text), self.netlist.clone());
                 Ok(Arc::new(Input::of(read, belief, (case, &set))?))
             }
         }

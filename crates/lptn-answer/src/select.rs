@@ -28,12 +28,16 @@ pub fn matching(netlist: &Netlist, patterns: &[String]) -> Vec<bool> {
     patterns.iter().map(found).collect()
 }
 
+/// All columns but those of imported parts: a million columns are of no use to anyone.
+pub fn all(netlist: &Netlist) -> Selection {
+    let shown =
+        |item: Item| matches!(item, Item::Boundary(_)) || !netlist.source_map.is_imported(item);
+    Selection::of(&netlist.network, shown)
+}
+
 fn chosen(netlist: &Netlist, patterns: &[String], in_file: bool) -> Result<Selection, Failure> {
     if patterns.is_empty() {
-        // a million columns are of no use to anyone
-        let shown =
-            |item: Item| matches!(item, Item::Boundary(_)) || !netlist.source_map.is_imported(item);
-        return Ok(Selection::of(&netlist.network, shown));
+        return Ok(all(netlist));
     }
     Selection::matching(&netlist.network, patterns)
         .map_err(|unmatched| no_match(netlist, &unmatched, in_file))

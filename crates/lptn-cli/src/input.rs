@@ -1,5 +1,7 @@
 //! The netlist that a command line names.
 
+use std::sync::Arc;
+
 use lptn_answer::belief::Belief;
 use lptn_answer::failure::Failure;
 use lptn_answer::input::{Input, parse, read};
@@ -30,7 +32,7 @@ impl Load for Input {
     }
 
     fn load_run(source: &Source, times: &Times, belief: &Belief<'_>) -> Result<Self, Failure> {
-        let text = read(&source.file)?;
+        let text = Arc::new(read(&source.file)?);
         let netlist = parse(&text)?;
         let times = [times.stop.as_deref(), times.every.as_deref()];
         let input = Self::of_run((text, netlist), (belief, times), source.settings())?;

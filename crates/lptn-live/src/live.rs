@@ -168,5 +168,5 @@ fn input(contents: &Value) -> Result<Input, Failure> {
     let given = Given { bytes, name, stem: stem.unwrap_or_else(|| "netlist".into()) };
     let (case, set) = (contents["case"].as_str(), texts(&contents["set"]));
     let times = ["stop", "every"].map(|name| contents[name].as_str());
-    Input::of_run((given, netlist), (&Belief::Named, times), (case, &set))
+    Input::of_run((Arc::new(given), netlist), (&Belief::Named, times), (case, &set))
 }

@@ -48,7 +48,7 @@ pub struct Netlist {
     /// Its studies.
     pub studies: Studies,
     /// The place of each part of the network.
-    pub source_map: SourceMap,
+    pub source_map: Arc<SourceMap>,
     /// The texts that places refer to.
     pub files: Files,
     /// Warnings: things that are probably not meant as they are written, or as they result from the
@@ -345,7 +345,7 @@ fn finish(
         network,
         run,
         studies,
-        source_map: map,
+        source_map: Arc::new(map),
         files,
         warnings: Vec::new(),
         written: diagnostics,

@@ -105,14 +105,20 @@ impl Answer {
         table.labels().iter().find(|label| label.name == name).map(|label| label.cells.clone())
     }
 
-    /// The numbers of a column, each 8 bytes.
-    fn numbers<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Option<Bound<'py, PyBytes>>> {
+    /// The unit of a column of numbers, and the numbers, each 8 bytes.
+    fn numbers<'py>(
+        &self,
+        py: Python<'py>,
+        name: &str,
+    ) -> PyResult<Option<(Cow<'_, str>, Bound<'py, PyBytes>)>> {
         if let Some(sheet) = self.sheet() {
-            return sheet.numbers(name).map(|values| bytes(py, values)).transpose();
+            let Some((unit, values)) = sheet.numbers(name) else { return Ok(None) };
+            return Ok(Some((unit.into(), bytes(py, values)?)));
         }
         let Some(table) = self.table() else { return Ok(None) };
         let column = table.columns().iter().find(|column| column.name == name);
-        column.map(|column| bytes(py, &column.values)).transpose()
+        let Some(column) = column else { return Ok(None) };
+        Ok(Some((column.unit.clone().into(), bytes(py, &column.values)?)))
     }
 
     /// The figures as one SVG; `None` if there is nothing to draw.

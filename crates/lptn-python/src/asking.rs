@@ -25,10 +25,8 @@ pub(crate) fn answered(
     given: &Bound<'_, PyDict>,
 ) -> PyResult<Answer> {
     let is_parameter = |name: &str| net.is_some_and(|net| is_parameter(net, name));
-    let given = given.copy()?;
     let told = given.get_item("progress")?.filter(|told| !told.is_none());
-    given.del_item("progress").ok();
-    let words = Words::sorted(&verb.declared, &given, &is_parameter)?;
+    let words = Words::sorted(&verb.declared, given, &is_parameter)?;
     let hearing = Hearing::telling(told.map(Bound::unbind));
     let asked = Asked { net, files, listener: &hearing };
     let work = || (verb.ask)(&asked, &words);

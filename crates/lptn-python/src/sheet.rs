@@ -45,10 +45,10 @@ impl Sheet {
         }
     }
 
-    /// The numbers of a column of numbers.
-    pub(crate) fn numbers(&self, name: &str) -> Option<&[f64]> {
+    /// The unit and the numbers of a column of numbers.
+    pub(crate) fn numbers(&self, name: &str) -> Option<(&str, &[f64])> {
         match self.cells(name)? {
-            Cells::Numbers { values, .. } => Some(values),
+            Cells::Numbers { unit, values } => Some((unit, values)),
             Cells::Words(_) => None,
         }
     }

@@ -40,8 +40,10 @@ impl Words {
     ) -> Result<Self, Trouble> {
         let mut words = Self::default();
         for (key, value) in given {
-            let key: String = key.extract()?;
-            match key.as_str() {
+            let key = key.cast::<PyString>().map_err(PyErr::from)?.to_cow()?;
+            match &*key {
+                // not a word of the question
+                "progress" => {}
                 "set" => words.each(&value, &mut |words, name, value| words.assign(name, value))?,
                 "options" => {
                     words.each(&value, &mut |words, name, value| words.option(verb, name, value))?

@@ -1,13 +1,12 @@
 //! The one table type that writers take: named columns with units.
 
-use lptn_network::{InputError, Network};
+use lptn_network::Network;
 use lptn_units::Unit;
 
 use crate::certify::farthest;
 use crate::quantity::{Quantity, Shown};
 use crate::selection::Selection;
 use crate::solution::Solution;
-use crate::steady::SteadyState;
 
 /// A column: a name such as `steel.T`, a unit such as `degC`, and one value a row.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,6 +82,11 @@ impl Table {
         TableOf { items, table: Self { labels: Vec::new(), columns: Vec::new() } }
     }
 
+    /// A table of these columns of numbers.
+    pub(crate) fn of_columns(columns: Vec<Column>) -> Self {
+        Self { labels: Vec::new(), columns }
+    }
+
     /// The columns of words.
     pub fn labels(&self) -> &[LabelColumn] {
         &self.labels
@@ -128,7 +132,7 @@ impl Table {
                 }
             });
         }
-        Self { labels: Vec::new(), columns }
+        Self::of_columns(columns)
     }
 
     /// The table of a run with further rows on both sides of its jumps, bends and switches, if
@@ -201,37 +205,6 @@ impl Table {
             time.values.iter_mut().for_each(|value| *value /= seconds);
         }
         self
-    }
-
-    /// The selected columns of a steady state and its reports over time as a table of one row,
-    /// temperatures in `unit`.
-    ///
-    /// # Errors
-    /// [`InputError`] if a report cannot be evaluated.
-    pub fn of_steady(
-        network: &Network,
-        steady: &SteadyState,
-        selection: &Selection,
-        unit: &Unit,
-    ) -> Result<Self, InputError> {
-        let mut scope = steady.evaluation(network);
-        let column = |&quantity: &Quantity| {
-            let mut column = empty(quantity, network, unit);
-            let value = steady.value(network, quantity, &mut scope)?;
-            column.values = vec![Shown::of(quantity, network).value(value, unit)];
-            Ok(column)
-        };
-        let columns: Result<Vec<Column>, InputError> =
-            selection.quantities().iter().map(column).collect();
-        let numbers = steady.reports_over_time(network)?;
-        let numbers = numbers.iter().map(|seen| {
-            let report = &network.reports()[seen.report.index()];
-            let shown = Shown::of_type(report.ty);
-            let (name, unit, value) =
-                (report.name.clone(), shown.unit(unit), shown.value(seen.value, unit));
-            Column { name, unit, values: vec![value] }
-        });
-        Ok(Self { labels: Vec::new(), columns: columns?.into_iter().chain(numbers).collect() })
     }
 }
 

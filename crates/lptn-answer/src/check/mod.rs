@@ -4,6 +4,7 @@ mod page;
 mod stiff;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, Files, Netlist, Severity};
@@ -14,6 +15,7 @@ use crate::answer::Answer;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{self, Given, Input};
+use crate::known_columns::KnownColumns;
 use crate::words::counts;
 use crate::{lumping, select};
 use stiff::Stiff;
@@ -98,7 +100,9 @@ impl CheckQuestion {
         let problems = &mut answer.diagnostics;
         *problems = netlist.warnings.clone();
         let text = Given { bytes: Vec::new(), name: text.name.clone(), stem: text.stem.clone() };
-        let input = Input { text, netlist, set, command: self.command.clone() };
+        let command = self.command.clone();
+        let input =
+            Input { text: Arc::new(text), netlist, set, command, columns: KnownColumns::default() };
         match input.assemble() {
             Ok(system) => answer.lumping = lumped(&input.netlist, &system),
             Err(failure) => problems.extend(failure.diagnostics),

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use lptn_analysis::{LimitResult, Trusted};
 use lptn_netlist::{Diagnostic, Files};
 use lptn_report::{Clock, Format};
-use lptn_solve::{Balance, SteadyError, SteadyState, Table, Uncertified};
+use lptn_solve::{Balance, SteadyColumns, SteadyError, SteadyState, Table, Uncertified};
 use lptn_units::Unit;
 
 use crate::answer::Answer;
@@ -83,7 +83,10 @@ impl SteadyQuestion {
     /// A unit, column or node that does not exist, and a network without a steady state.
     pub fn ask(&self, input: Arc<Input>, listener: &dyn Listener) -> Result<SteadyAnswer, Failure> {
         let netlist = &input.netlist;
-        let selection = select::of_option(netlist, &self.select)?;
+        let selection = match self.select.as_slice() {
+            [] => None,
+            patterns => Some(select::of_option(netlist, patterns)?),
+        };
         let unit = input::temperature_unit(self.temperature_unit.as_deref(), netlist)?;
         let balance = balance::end(netlist, self.balance.as_deref(), self.format)?;
         let system = timed(listener, "assemble", || input.assemble())?;
@@ -93,7 +96,11 @@ impl SteadyQuestion {
         let network = &netlist.network;
         let unread = |error| steady_failed(&input, &SteadyError::Input(error));
         let limits = LimitResult::of_steady(network, &steady).map_err(unread)?;
-        let table = Table::of_steady(network, &steady, &selection, &unit).map_err(unread)?;
+        let columns = match &selection {
+            Some(selection) => Arc::new(SteadyColumns::of(network, selection, &unit)),
+            None => input.columns.of(netlist, &unit, || select::all(netlist)),
+        };
+        let table = columns.table(network, &steady).map_err(unread)?;
         let balance = balance.map(|of| steady.balance(network, of));
         let all = self.select.is_empty();
         let fold = all && self.detail < Detail::Verbose;

@@ -180,6 +180,12 @@ impl Network {
         Ok(Self { parts: Arc::clone(&self.parts), numbers: Arc::new(numbers) })
     }
 
+    /// True if both networks have the same parts, and differ in the values of parameters only: one
+    /// was made of the other by [`Network::with`], or both of a third.
+    pub fn shares_parts(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.parts, &other.parts)
+    }
+
     /// The same network with further limits after its own: the requirements of a study, judged like
     /// limits at every moment of a run. Their names are for messages only and cannot be looked up.
     #[must_use]

@@ -26,15 +26,10 @@ class Column(np.ndarray[Any, np.dtype[np.float64]]):
     with a column gives a plain array; `np.array(column)` is one that can be changed.
     """
 
-    _name: str
-    _unit: str | None
-    _index: Column | None
-
-    def __array_finalize__(self, obj: Any) -> None:
-        # made by NumPy, in an order that is not known; `column` gives name, unit and index
-        object.__setattr__(self, "_name", "")
-        object.__setattr__(self, "_unit", None)
-        object.__setattr__(self, "_index", None)
+    # of an array that NumPy makes, in an order that is not known; `column` gives others
+    _name: str = ""
+    _unit: str | None = None
+    _index: Column | None = None
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **kwargs: Any) -> Any:
         # a product or a difference has another unit
@@ -211,10 +206,15 @@ def column(name: str, unit: str, values: Any, index: Column | None = None) -> Co
 def _again(name: str, unit: str | None, values: np.ndarray, index: Column | None) -> Column:
     made = np.ndarray.view(values, Column)
     np.ndarray.setflags(made, write=False)
-    made._name, made._unit, made._index = name, unit, index
+    return _named(made, name, unit, index)
+
+
+def _named(made: Column, name: str, unit: str | None, index: Column | None) -> Column:
+    made.__dict__.update(_name=name, _unit=unit, _index=index)
     return made
 
 
-def of_bytes(name: str, unit: str, data: bytes, index: Column | None = None) -> Column:
-    """A column of these bytes, which are not copied."""
-    return column(name, unit, np.frombuffer(data, dtype=np.float64), index)
+def of_bytes(name: str, unit: str, data: bytes, index: Column | None, scalar: bool) -> Column:
+    """A column, or one number, of these bytes, which are not copied and cannot be changed."""
+    shape = () if scalar else len(data) // 8
+    return _named(np.ndarray.__new__(Column, shape, np.float64, data), name, unit, index)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from contextlib import nullcontext
 from typing import Any
 
 from . import _lptn
@@ -81,15 +80,23 @@ def _method(name: str, first: str | None, several: bool) -> Any:
             if first is None or len(given) > 1 or first in words:
                 raise TypeError(f"{name}() takes no such argument without a name")
             words[first] = given[0]
-        with shown(words) if "progress" in words else nullcontext(words) as words:
-            try:
-                words = given_values(words, lambda: self._netlist, name == "compare")
-                answer = self._netlist.ask(name, others, words)
-            except Error as error:
-                self._explain(error)
-                raise
-        of = None if several and given else self
-        return answered(answer, name, words, 2, self._explain, of)
+        if "progress" in words:
+            with shown(words) as words:
+                answer, words = of(self, others, words)
+        else:
+            answer, words = of(self, others, words)
+        about = None if several and given else self
+        return answered(answer, name, words, 2, self._explain, about)
+
+    def of(
+        self: Any, others: list[str], words: dict[str, Any]
+    ) -> tuple[_lptn.Answer, dict[str, Any]]:
+        try:
+            words = given_values(words, lambda: self._netlist, name == "compare")
+            return self._netlist.ask(name, others, words), words
+        except Error as error:
+            self._explain(error)
+            raise
 
     return ask
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import json
 from collections.abc import Callable, Iterator, Sequence
+from functools import cache, cached_property
 from typing import TYPE_CHECKING, Any
 
 from . import _lptn
@@ -20,25 +21,39 @@ Explain = Callable[[Error | list[Problem]], None]
 _SHOWN = 12
 
 
+@cache
+def _module() -> Any:
+    """The module of columns, which imports NumPy."""
+    from . import _column
+
+    return _column
+
+
 class Table:
     """The rows of an answer: columns of numbers with units, and columns of words."""
 
     def __init__(self, answer: _lptn.Answer | Kept, scalar: bool) -> None:
         self._answer = answer
         self._scalar = scalar
-        columns = dict(answer.columns())
-        self._names = list(columns)
-        self.units: dict[str, str] = {name: u for name, u in columns.items() if u is not None}
-        """The unit of each column of numbers."""
         self._numbers: dict[str, Column] = {}
+
+    @cached_property
+    def _columns(self) -> dict[str, str | None]:
+        # of a table from which one column is read, they are not needed
+        return dict(self._answer.columns())
+
+    @cached_property
+    def units(self) -> dict[str, str]:
+        """The unit of each column of numbers."""
+        return {name: unit for name, unit in self._columns.items() if unit is not None}
 
     @property
     def names(self) -> list[str]:
         """The names of all columns."""
-        return list(self._names)
+        return list(self._columns)
 
     def __contains__(self, name: object) -> bool:
-        return name in self._names
+        return name in self._columns
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.names)
@@ -50,24 +65,28 @@ class Table:
         return len(first) if getattr(first, "ndim", 1) else 1
 
     def __getitem__(self, name: str) -> Column | Any:
-        if name not in self.units:
-            words = self._answer.words(name) if name in self._names else None
-            if words is None:
-                raise KeyError(f"{name}: the columns are {', '.join(self.names[:20])}")
-            return list(words)
-        if name not in self._numbers:
-            self._numbers[name] = self._column(name)
-        return self._numbers[name]
+        found = self._numbers.get(name)
+        if found is None:
+            found = self._column(name)
+        if found is not None:
+            return found
+        words = self._answer.words(name) if name in self else None
+        if words is None:
+            raise KeyError(f"{name}: the columns are {', '.join(self.names[:20])}")
+        return list(words)
 
-    def _column(self, name: str) -> Column:
-        from . import _column
-
-        unit = self.units[name]
-        index = None
-        if name != "time" and "time" in self.units:
-            index = self["time"]
-        made = _column.of_bytes(name, unit, self._answer.numbers(name) or b"", index)
-        return _column.column(name, unit, made.reshape(())) if self._scalar else made
+    def _column(self, name: str) -> Column | None:
+        """A column of numbers; `None` if it is one of words, or unknown."""
+        read = self._answer.numbers(name) if isinstance(name, str) else None
+        if read is None:
+            return None
+        unit, data = read
+        index = None if name == "time" else self._numbers.get("time")
+        if index is None and name != "time":
+            index = self._column("time")
+        made = _module().of_bytes(name, unit, data, index, self._scalar)
+        self._numbers[name] = made
+        return made
 
     def to_pandas(self, **words: Any) -> Any:
         """The rows as a pandas DataFrame; headings have the units, times are the index."""
@@ -166,7 +185,7 @@ class Kept:
     def columns(self) -> list[tuple[str, str | None]]:
         return self._columns
 
-    def numbers(self, name: str) -> bytes | None:
+    def numbers(self, name: str) -> tuple[str, bytes] | None:
         return self._cells.get(name, (None, None))[0]
 
     def words(self, name: str) -> list[str] | None:
