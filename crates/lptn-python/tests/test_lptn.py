@@ -168,6 +168,15 @@ class Results(unittest.TestCase):
         self.assertEqual(again.steady().json(), net.steady().json())
         self.assertEqual(float(lptn.parse(net.to_toml()).steady()["block.T"]), 35.0)
 
+    def test_a_network_that_was_asked_answers_as_a_new_one(self):
+        net = lptn.load(GEARBOX)
+        for words in [{}, {"temperature_unit": "K"}, {"G_out": "3 W/K"}, {"select": ["steel.T"]},
+                      {"temperature_unit": "degF", "P_7000": "100 W"}, {"G_out": "3 W/K"}, {}]:
+            own, new = net.steady(**words), lptn.load(GEARBOX).steady(**words)
+            self.assertEqual(own.json(), new.json(), words)
+            self.assertEqual([(name, own[name].unit, float(own[name])) for name in own],
+                             [(name, new[name].unit, float(new[name])) for name in new], words)
+
 
 class Refusals(unittest.TestCase):
     def test_errors_are_exceptions(self):
