@@ -268,7 +268,7 @@ impl Pass {
     fn constant_law(&mut self, network: &Network, id: ConductorId) -> Option<Slope> {
         let law = &network.conductors()[id.index()].law;
         let constant = network.flow(id) != ConductorFlow::Variable && law.fluid().is_none();
-        // a value that fails is told where it is used
+        // its use reports a value that fails
         constant.then(|| At::new((&mut self.slots, &mut self.stack)).value(law).ok()).flatten()
     }
 }

@@ -26,7 +26,7 @@ pub(super) struct Adjoint<'a> {
     /// True for constant coefficients and weights.
     pub(super) constant: bool,
     /// True if the Jacobian was taken in this stretch.
-    linear: bool,
+    linearised: bool,
     /// The time in s of the run at which the moment is.
     now: f64,
     state: Vec<f64>,
@@ -57,7 +57,7 @@ impl<'a> Adjoint<'a> {
             running: if constant { 0 } else { parameters },
             parameters,
             constant,
-            linear: false,
+            linearised: false,
             now: f64::NAN,
             state: vec![0.0; states],
             weights: vec![0.0; system.network().nodes().len()],
@@ -74,7 +74,7 @@ impl<'a> Adjoint<'a> {
     pub(super) fn enter(&mut self, stretch: &'a Stretch) {
         self.stretch = stretch;
         self.moment.set_positions(stretch.positions.as_ref());
-        (self.now, self.linear) = (f64::NAN, false);
+        (self.now, self.linearised) = (f64::NAN, false);
     }
 
     /// Takes running integrals, whatever the coefficients.
@@ -95,9 +95,9 @@ impl<'a> Adjoint<'a> {
         self.stretch.at(time, &mut self.state);
         self.moment.stand(self.stretch.branch(time));
         self.moment.go((time, self.stretch.inside), &self.state)?;
-        if !(self.constant && self.linear) {
+        if !(self.constant && self.linearised) {
             self.moment.linearise()?;
-            self.linear = true;
+            self.linearised = true;
         }
         if let Some((margin, nodes)) = &self.integrated {
             let point = self.point(time);
