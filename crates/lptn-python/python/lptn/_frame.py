@@ -112,7 +112,7 @@ def _write(file: str, columns: dict[str, list[float]]) -> None:
         csv.writer(out).writerow(columns)
         # repr gives all digits
         rows = zip(*(map(repr, values) for values in columns.values()))
-        out.writelines(f"{','.join(row)}\n" for row in rows)
+        out.write("\n".join(map(",".join, rows)) + "\n")
 
 
 def _temperatures(network: Network, over: str) -> dict[str, str]:
