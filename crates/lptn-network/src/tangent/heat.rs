@@ -3,7 +3,7 @@
 use lptn_units::Scalar;
 
 use super::reads::each;
-use super::{Pass, Tangents};
+use super::{Known, Pass, Tangents};
 use crate::evaluation::{Evaluation, Slope};
 use crate::id::{Field, Item};
 use crate::input_error::InputError;
@@ -126,17 +126,21 @@ impl Pass {
             let ends = [conductor.from, conductor.to].map(|end| network.vertex(end));
             let dual = |vertex: usize| of_vertex(vertex, network, boundaries, temperatures);
             let (from, to) = (dual(ends[0]), dual(ends[1]));
-            let received = if let Some(conductance) = path.conductance {
-                let heat = conductance * (from - to);
-                Ok([-heat, heat])
-            } else if let Some(value) = path.value {
-                [slots[slot::FROM as usize], slots[slot::TO as usize]] = [from, to];
-                network.received_of((&conductor.law, value), At::new((slots, stack)), from, to)
-            } else {
-                place_ends(slots, &network.parts.dependence(path.id), ends, &dual);
-                let along = network.along(path.id);
-                let at = At { by_parameters: true, ..At::path((slots, stack), along) };
-                network.received(conductor, at, from, to)
+            let received = match path.law {
+                Known::Conductance(conductance) => {
+                    let heat = conductance * (from - to);
+                    Ok([-heat, heat])
+                }
+                Known::Other(value) => {
+                    [slots[slot::FROM as usize], slots[slot::TO as usize]] = [from, to];
+                    network.received_of((&conductor.law, value), At::new((slots, stack)), from, to)
+                }
+                Known::No => {
+                    place_ends(slots, &network.parts.dependence(path.id), ends, &dual);
+                    let along = network.along(path.id);
+                    let at = At { by_parameters: true, ..At::path((slots, stack), along) };
+                    network.received(conductor, at, from, to)
+                }
             };
             let received = received
                 .map_err(|failed| network.failed(Item::Conductor(path.id), failed, scope))?;

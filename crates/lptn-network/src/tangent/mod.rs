@@ -80,10 +80,17 @@ struct Reads {
 struct Path {
     id: ConductorId,
     lanes: Lanes,
-    /// The value of its law, if it is constant over a run.
-    value: Option<Slope>,
-    /// The same if it is a conductance in W/K.
-    conductance: Option<Slope>,
+    law: Known,
+}
+
+/// The value of a law, if it is constant over a run.
+#[derive(Clone, Debug)]
+enum Known {
+    No,
+    /// In W/K.
+    Conductance(Slope),
+    /// An exchange area or a capacity rate.
+    Other(Slope),
 }
 
 impl Network {
@@ -246,10 +253,8 @@ impl Pass {
         for (read, lanes) in reads {
             match read {
                 Read::Conductor(id) => {
-                    let value = self.constant_law(network, id);
-                    let conducts = matches!(network.flow(id), ConductorFlow::Conductance(_));
-                    let conductance = value.filter(|value| conducts && value.is_finite());
-                    self.reads.conductors.push(Path { id, lanes, value, conductance });
+                    let law = self.known_law(network, id);
+                    self.reads.conductors.push(Path { id, lanes, law });
                 }
                 Read::Source(id) => self.reads.sources.push((id, lanes)),
                 Read::Boundary(id) => self.reads.boundaries.push(id),
@@ -264,11 +269,21 @@ impl Pass {
         Ok(())
     }
 
-    /// The value of the law of a conductor that reads neither temperatures nor the time.
-    fn constant_law(&mut self, network: &Network, id: ConductorId) -> Option<Slope> {
+    /// The value of the law of a conductor that reads neither temperatures nor the time. One that
+    /// fails is not known: its use reports it.
+    fn known_law(&mut self, network: &Network, id: ConductorId) -> Known {
         let law = &network.conductors()[id.index()].law;
-        let constant = network.flow(id) != ConductorFlow::Variable && law.fluid().is_none();
-        // its use reports a value that fails
-        constant.then(|| At::new((&mut self.slots, &mut self.stack)).value(law).ok()).flatten()
+        let flow = network.flow(id);
+        let varies = flow == ConductorFlow::Variable || network.along(id).is_some();
+        if varies || law.fluid().is_some() {
+            return Known::No;
+        }
+        match (At::new((&mut self.slots, &mut self.stack)).value(law), flow) {
+            (Ok(value), ConductorFlow::Conductance(_)) if value.is_finite() => {
+                Known::Conductance(value)
+            }
+            (Ok(value), _) => Known::Other(value),
+            (Err(_), _) => Known::No,
+        }
     }
 }

@@ -1,9 +1,10 @@
 //! The derivatives by the parameters along the way, for an adjoint without running integrals.
 
 use lptn_integrate::OdeSystem;
+use lptn_integrate::vectors::add;
 
 use super::error::BackwardError;
-use super::way::{Way, add};
+use super::way::Way;
 use crate::trajectory::Series;
 
 /// Points and weights of Gauss and Legendre's rule on (-1, 1), exact to degree 9; the last number is
@@ -55,15 +56,15 @@ impl Way<'_> {
             let time = middle + half * place;
             adjoint.at(-time, &mut state);
             system.integrands(time, &state, &mut rates)?;
-            add(&mut fine, (&rates, by * weight));
-            add(&mut apart, (&rates, by * (weight - other)));
+            add(&mut fine, by * weight, &rates);
+            add(&mut apart, by * (weight - other), &rates);
             rates.iter_mut().for_each(|rate| *rate = rate.abs());
-            add(&mut size, (&rates, by * weight));
+            add(&mut size, by * weight, &rates);
         }
         let size = self.size + self.norm(&size);
         let share = self.norm(&apart) / size.max(f64::MIN_POSITIVE);
         if share * share * share.sqrt() <= self.tolerance {
-            add(&mut self.found, (&fine, 1.0));
+            add(&mut self.found, 1.0, &fine);
             self.size = size;
             return Ok(());
         }

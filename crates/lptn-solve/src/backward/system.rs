@@ -20,10 +20,8 @@ pub(super) struct Adjoint<'a> {
     /// The margin that is integrated and the nodes that it reads; `None` for a result of one moment.
     integrated: Option<(Margin<'a>, Vec<NodeId>)>,
     pub(super) scale: f64,
-    /// Running integrals, by the parameters; 0 if they are taken from outside.
-    running: usize,
     parameters: usize,
-    /// True for constant coefficients and weights.
+    /// True for constant coefficients and weights, without running integrals.
     pub(super) constant: bool,
     /// True if the Jacobian was taken in this stretch.
     linearised: bool,
@@ -54,7 +52,6 @@ impl<'a> Adjoint<'a> {
             stretch,
             integrated: integrated.map(|margin| (margin, margin.nodes())),
             scale: 1.0,
-            running: if constant { 0 } else { parameters },
             parameters,
             constant,
             linearised: false,
@@ -75,11 +72,6 @@ impl<'a> Adjoint<'a> {
         self.stretch = stretch;
         self.moment.set_positions(stretch.positions.as_ref());
         (self.now, self.linearised) = (f64::NAN, false);
-    }
-
-    /// Takes running integrals, whatever the coefficients.
-    pub(super) fn integrate(&mut self) {
-        (self.constant, self.running) = (false, self.parameters);
     }
 
     /// The margin is read again, at another scale.
@@ -204,7 +196,7 @@ impl OdeSystem for Adjoint<'_> {
     }
 
     fn quadrature_count(&self) -> usize {
-        self.running
+        if self.constant { 0 } else { self.parameters }
     }
 
     fn quadrature(&mut self, t: f64, x: &[f64], q: &mut [f64]) -> Result<(), Retry> {

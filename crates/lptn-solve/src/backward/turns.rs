@@ -1,8 +1,10 @@
 //! The adjoint at a switch.
 
+use lptn_integrate::vectors::add;
+
 use super::error::BackwardError;
 use super::rate::Read;
-use super::way::{Way, add};
+use super::way::Way;
 use crate::events::EventKind;
 use crate::sensitive_run::step;
 use crate::stencil::slope;
@@ -97,8 +99,8 @@ impl Way<'_> {
         if !factor.is_finite() {
             return Err(BackwardError::Grazes { name, time: turn.time });
         }
-        add(&mut self.adjoint, (&instant.states, factor));
-        add(&mut self.found, (&instant.parameters, factor));
+        add(&mut self.adjoint, factor, &instant.states);
+        add(&mut self.found, factor, &instant.parameters);
         Ok(())
     }
 }

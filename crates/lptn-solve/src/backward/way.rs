@@ -1,5 +1,6 @@
 //! The way back through a run, stretch by stretch.
 
+use lptn_integrate::vectors::add;
 use lptn_integrate::{IntegrateError, Integrator, OneStep, Options};
 
 use super::error::BackwardError;
@@ -126,8 +127,8 @@ impl<'a> Way<'a> {
         let (point, _) = self.read(stretch, time)?;
         let weights = margin.by_nodes(&point, &margin.nodes())?;
         let instant = self.moment().instant(&weights)?;
-        add(&mut self.adjoint, (&instant.states, 1.0));
-        add(&mut self.found, (&instant.parameters, 1.0));
+        add(&mut self.adjoint, 1.0, &instant.states);
+        add(&mut self.found, 1.0, &instant.parameters);
         if margin.nodes_alone().is_none() {
             for (found, &parameter) in self.found.iter_mut().zip(parameters) {
                 *found += margin.directly(std::slice::from_ref(&point), parameter)?;
@@ -234,15 +235,10 @@ fn stepper<'a>(
         let integrator = OneStep::new(adjoint, at.0, at.1, options);
         return Ok(Box::new(integrator.map_err(TransientError::Integrator)?));
     }
-    adjoint.integrate();
+    adjoint.constant = false;
     Ok(cvodes(adjoint, at, options)?)
 }
 
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, value| most.max(value.abs()))
-}
-
-/// Adds values times a factor.
-pub(super) fn add(sum: &mut [f64], (values, factor): (&[f64], f64)) {
-    sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += factor * value);
 }
