@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use lptn_netlist::Netlist;
+use lptn_netlist::{Netlist, parse_with, read_named};
 
 use crate::belief::Belief;
 use crate::failure::Failure;
@@ -29,7 +29,9 @@ impl Loaded {
     /// # Errors
     /// All problems of the netlist or of the values.
     pub fn read(file: impl AsRef<Path>, set: &[String]) -> Result<Self, Failure> {
-        Self::of(input::read(file.as_ref())?, set)
+        let text = input::read(file.as_ref())?;
+        let netlist = input::parse(&text)?;
+        Self::of(text, netlist, set)
     }
 
     /// The same for a text; files that it names are relative to the place of its name.
@@ -37,13 +39,31 @@ impl Loaded {
     /// # Errors
     /// As [`Loaded::read`].
     pub fn text(name: &str, text: &str, set: &[String]) -> Result<Self, Failure> {
-        let stem = Path::new(name).file_stem().map(|stem| stem.to_string_lossy().into_owned());
-        let stem = stem.unwrap_or_else(|| "netlist".into());
-        Self::of(Given { bytes: text.into(), name: name.into(), stem }, set)
+        let text = given(name, text);
+        let netlist = input::parse(&text)?;
+        Self::of(text, netlist, set)
     }
 
-    fn of(text: Given, set: &[String]) -> Result<Self, Failure> {
-        let (netlist, text) = (input::parse(&text)?, Arc::new(text));
+    /// The same for a text that names a file which is not on the disk: its bytes, and its path as
+    /// the text gives it.
+    ///
+    /// # Errors
+    /// As [`Loaded::read`].
+    pub fn with_file(
+        (name, text): (&str, &str),
+        (file, bytes): (&str, &[u8]),
+        set: &[String],
+    ) -> Result<Self, Failure> {
+        let path = Path::new(name).parent().unwrap_or(Path::new("")).join(file);
+        let netlist = parse_with(name, text, &mut |asked| match asked == path {
+            true => Ok(bytes.to_vec()),
+            false => read_named(asked),
+        });
+        Self::of(given(name, text), netlist?, set)
+    }
+
+    fn of(text: Given, netlist: Netlist, set: &[String]) -> Result<Self, Failure> {
+        let text = Arc::new(text);
         let usual = Input::of((Arc::clone(&text), netlist.clone()), &Belief::Named, (None, set))?;
         Ok(Self { text, netlist, set: set.to_vec(), usual: Arc::new(usual) })
     }
@@ -82,4 +102,10 @@ impl Loaded {
             }
         }
     }
+}
+
+fn given(name: &str, text: &str) -> Given {
+    let stem = Path::new(name).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let stem = stem.unwrap_or_else(|| "netlist".into());
+    Given { bytes: text.into(), name: name.into(), stem }
 }

@@ -44,6 +44,9 @@ struct More {
 /// million cells has three million conductors.
 pub(crate) type Few = Vertices;
 
+/// The derivatives of a conductor's heats by its variables, if they are known.
+pub(crate) type Known<'a> = dyn Fn(ConductorId) -> Option<&'a [Received]> + 'a;
+
 /// No place in the Jacobian.
 pub(crate) const NOWHERE: u32 = u32::MAX;
 
@@ -217,7 +220,24 @@ impl Element {
         form: JacobianForm,
         values: &mut [f64],
     ) -> Result<(), InputError> {
-        self.evaluate_slopes(network, work)?;
+        self.add_slopes_with((network, work), form, &|_| None, values)
+    }
+
+    /// The same with its derivatives if they are known.
+    pub(crate) fn add_slopes_with(
+        &self,
+        (network, work): (&Network, &mut Workspace),
+        form: JacobianForm,
+        known: &Known<'_>,
+        values: &mut [f64],
+    ) -> Result<(), InputError> {
+        match self.conductor().and_then(known) {
+            Some(slopes) => {
+                work.slopes.ends.clear();
+                work.slopes.ends.extend_from_slice(slopes);
+            }
+            None => self.evaluate_slopes(network, work)?,
+        }
         self.add_evaluated(&mut work.slopes, form, values);
         Ok(())
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use lptn_network::{ConductorId, InputError, Network, NodeId};
 
 use crate::bodies::Bodies;
-use crate::element::{Element, JacobianForm, slot};
+use crate::element::{Element, JacobianForm, Known, slot};
 use crate::eliminate::{Elimination, Link, TooMany};
 use crate::error::AssemblyError;
 use crate::links::{constant_links, sorted};
@@ -314,13 +314,24 @@ impl ThermalSystem {
         form: JacobianForm,
         values: &mut [f64],
     ) -> Result<(), InputError> {
+        self.jacobian_with((work, y), form, &|_| None, values)
+    }
+
+    /// The same with those derivatives of conductors that are `known`.
+    pub(crate) fn jacobian_with(
+        &self,
+        (work, y): (&mut Workspace, &[f64]),
+        form: JacobianForm,
+        known: &Known<'_>,
+        values: &mut [f64],
+    ) -> Result<(), InputError> {
         self.jacobian(values);
         if !self.is_linear() {
             self.put(work, y);
             self.radiation.iter().for_each(|r| r.add_slopes(&work.temperature, form, values));
             self.bodies.add_slopes((&self.network, &self.elements), work, (form, values))?;
             for i in self.bodies.others() {
-                self.elements[i].add_slopes(&self.network, work, form, values)?;
+                self.elements[i].add_slopes_with((&self.network, work), form, known, values)?;
             }
         }
         if self.scaled.is_empty() {

@@ -6,6 +6,7 @@
 
 use lptn_network::{InputError, Tangents};
 
+use crate::element::JacobianForm;
 use crate::system::ThermalSystem;
 use crate::workspace::Workspace;
 
@@ -42,6 +43,26 @@ impl ThermalSystem {
     ) -> Result<(), InputError> {
         let at = (&work.scope, &work.temperature[..]);
         tangents.add_heat_against(self.network(), at, weights, out)
+    }
+
+    /// Writes the exact Jacobian, as [`ThermalSystem::jacobian_at`], and keeps the changes of heats by
+    /// the parameters if evaluations serve both. From inputs read and nodes recovered. True if they
+    /// are kept; those that fail are not.
+    ///
+    /// # Errors
+    /// As [`ThermalSystem::jacobian_at`].
+    pub fn linearise(
+        &self,
+        (work, y): (&mut Workspace, &[f64]),
+        tangents: &mut Tangents,
+        values: &mut [f64],
+    ) -> Result<bool, InputError> {
+        let kept = tangents.shares_slopes()
+            && tangents.keep_heats(self.network(), &work.scope, &work.temperature).is_ok();
+        let tangents = &*tangents;
+        let known = |id| if kept { tangents.kept_slopes(id) } else { None };
+        self.jacobian_with((work, y), JacobianForm::Exact, &known, values)?;
+        Ok(kept)
     }
 
     /// True if temperatures of nodes follow from others without storage: then their sensitivities

@@ -121,7 +121,8 @@ pub use lptn_data::{
     CsvOptions, CsvText, DATE_ORDERS, DECIMALS, DataSheet, DateOrder, Decimal, Diagnostic, FileId,
     Files, Label, MOST_BYTES, MOST_CSV_BYTES, MOST_PROBLEMS, ReadError, Record, RecordColumn,
     RecordLine, RecordLines, RecordName, RecordQuery, RecordRow, Rejected, Saturation, Severity,
-    Span, read_bytes, read_record, read_sheet, read_text, revolutions_option, unit_option,
+    Span, read_bytes, read_named, read_record, read_sheet, read_text, revolutions_option,
+    unit_option,
 };
 pub use lptn_network::{Functional, RunSettings, WindowSettings};
 pub use near_file::similar_file;

@@ -14,7 +14,6 @@ mod netlist;
 mod program;
 mod questions;
 mod sections;
-mod sheet;
 mod simulation;
 mod subject;
 mod trouble;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use lptn::{Exit, Failure, Loaded, Unit};
+use lptn::{CsvLines, Exit, Failure, Loaded, Unit};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -12,6 +12,9 @@ use crate::declaration::About;
 use crate::trouble::Trouble;
 use crate::verbs::named;
 use crate::words;
+
+/// Bytes of a number.
+const SIZE: usize = size_of::<f64>();
 
 /// A netlist with the values that were set when it was loaded.
 #[pyclass(frozen, module = "lptn._lptn")]
@@ -46,6 +49,21 @@ impl Netlist {
         let set = assignments(set)?;
         let loaded = py.detach(|| Loaded::text(name, text, &set)).map_err(failed)?;
         Ok(Self { loaded, file: None })
+    }
+
+    /// Reads a text that names a file of candidates, which has this name, these headings, and a
+    /// column of numbers, each 8 bytes, for each of them.
+    #[staticmethod]
+    fn with_candidates(
+        py: Python<'_>,
+        text: (&str, &str),
+        file: &str,
+        columns: Vec<(String, Vec<u8>)>,
+        set: &Bound<'_, PyDict>,
+    ) -> PyResult<Self> {
+        let set = assignments(set)?;
+        let read = || Loaded::with_file(text, (file, &candidates(&columns)), &set);
+        Ok(Self { loaded: py.detach(read).map_err(failed)?, file: None })
     }
 
     /// Asks a question of this name; `others` are further netlists of a comparison.
@@ -105,6 +123,20 @@ impl Netlist {
             None => Ok(netlist.expanded()),
         }
     }
+}
+
+/// The CSV file of these columns.
+fn candidates(columns: &[(String, Vec<u8>)]) -> Vec<u8> {
+    let mut lines = CsvLines::new();
+    columns.iter().for_each(|(heading, _)| lines.word(heading));
+    lines.end();
+    let mut values: Vec<_> = columns.iter().map(|(_, bytes)| bytes.chunks_exact(SIZE)).collect();
+    for _ in 0..values.first().map_or(0, ExactSizeIterator::len) {
+        let bytes = values.iter_mut().map(|column| column.next().unwrap_or_default());
+        bytes.for_each(|bytes| lines.number(bytes.try_into().map_or(f64::NAN, f64::from_ne_bytes)));
+        lines.end();
+    }
+    lines.into_bytes()
 }
 
 /// Scale, offset and SI unit of a unit: `si = (value + offset) * scale`.

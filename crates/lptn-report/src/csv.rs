@@ -6,7 +6,7 @@ use std::io;
 use lptn_solve::{Column, Table};
 
 use crate::number::Shortest;
-use crate::page::Rows;
+use crate::rows::{Cells, RowColumn, Rows};
 
 /// Size in bytes from which text is passed on.
 const CHUNK: usize = 1 << 13;
@@ -15,7 +15,7 @@ const CHUNK: usize = 1 << 13;
 pub(crate) fn write(rows: &Rows<'_>, out: &mut dyn io::Write) -> io::Result<()> {
     match rows {
         Rows::Table(table) => write_csv(table, out),
-        Rows::Words(rows) => write_rows(rows, out),
+        Rows::Columns(columns) => write_columns(columns, out),
     }
 }
 
@@ -32,6 +32,27 @@ pub fn write_csv(table: &Table, out: impl io::Write) -> io::Result<()> {
     for row in 0..table.rows() {
         table.labels().iter().for_each(|label| lines.word(&label.cells[row]));
         table.row(row).for_each(|value| lines.number(value));
+        lines.end()?;
+    }
+    lines.finish()
+}
+
+fn write_columns(columns: &[RowColumn<'_>], out: impl io::Write) -> io::Result<()> {
+    if columns.is_empty() {
+        return Ok(());
+    }
+    let mut lines = Lines::new(out);
+    columns.iter().for_each(|column| lines.word(&column.header()));
+    lines.end()?;
+    for row in 0..columns.first().map_or(0, RowColumn::rows) {
+        for column in columns {
+            match &column.cells {
+                Cells::Words(texts) => lines.word(&texts[row]),
+                Cells::Numbers(values) if !values[row].is_nan() => lines.number(values[row]),
+                Cells::Counts(values) if !values[row].is_nan() => lines.whole(values[row] as u64),
+                Cells::Numbers(_) | Cells::Counts(_) => lines.word(""),
+            }
+        }
         lines.end()?;
     }
     lines.finish()
@@ -132,6 +153,10 @@ impl<W: io::Write> Lines<W> {
 
     fn number(&mut self, value: f64) {
         self.lines.number(value);
+    }
+
+    fn whole(&mut self, value: u64) {
+        self.lines.whole(value);
     }
 
     /// Ends the line, and passes the text on once it reaches `CHUNK`.

@@ -4,14 +4,13 @@
 //! only for the part that it writes. Large objects are not made for a terminal, and rows are
 //! streamed.
 
-use std::borrow::Cow;
 use std::io;
 
 use lptn_plot::Figure;
-use lptn_solve::Table;
 
 use crate::json::Json;
 use crate::report::Report;
+use crate::rows::Rows;
 use crate::text::Text;
 
 /// The answer of a command, for readers and for programs.
@@ -22,7 +21,7 @@ pub trait Page {
 
     /// For spreadsheets and plots: rows of exact numbers. Default: none.
     fn rows(&self) -> Rows<'_> {
-        Rows::Words(Vec::new())
+        Rows::Columns(Vec::new())
     }
 
     /// For programs: the members of one object, in their order.
@@ -89,25 +88,5 @@ impl Page for Text {
 
     fn json(&self, _: &mut Json<'_>) -> io::Result<()> {
         Ok(())
-    }
-}
-
-/// Rows of a result.
-pub enum Rows<'a> {
-    /// Columns of numbers with units.
-    Table(Cow<'a, Table>),
-    /// Rows of texts, the heading first; all have the same length.
-    Words(Vec<Vec<String>>),
-}
-
-impl From<Table> for Rows<'_> {
-    fn from(table: Table) -> Self {
-        Self::Table(Cow::Owned(table))
-    }
-}
-
-impl<'a> From<&'a Table> for Rows<'a> {
-    fn from(table: &'a Table) -> Self {
-        Self::Table(Cow::Borrowed(table))
     }
 }

@@ -22,8 +22,12 @@ pub struct Column {
 impl Column {
     /// The column's header in a CSV file: name and unit in brackets, `-` for a plain number.
     pub fn header(&self) -> String {
-        let unit = if self.unit == "1" { "-" } else { &self.unit };
-        format!("{} [{unit}]", self.name)
+        Self::heading(&self.name, &self.unit)
+    }
+
+    /// The header of a column of this name and unit.
+    pub fn heading(name: &str, unit: &str) -> String {
+        format!("{name} [{}]", if unit == "1" { "-" } else { unit })
     }
 }
 

@@ -4,8 +4,8 @@ use std::io;
 
 use lptn_plot::Figure;
 use lptn_report::{
-    Json, Page, Report, Rows, Text, TextTable, decimals, duration, fixed, prefix, rounded_up,
-    significant,
+    Json, Page, Report, RowColumn, Rows, Shortest, Text, TextTable, decimals, duration, fixed,
+    prefix, rounded_up, significant,
 };
 use lptn_solve::{ColumnSeen, CycleMethod};
 use lptn_study::{SiValue, StatisticsRecord};
@@ -53,21 +53,36 @@ impl Page for CycleAnswer {
 
     /// Name, unit, value at the start, mean, extremes with their times, and swing of each column.
     fn rows(&self) -> Rows<'_> {
-        let heading =
-            ["name", "unit", "start", "mean", "min", "min_at [s]", "max", "max_at [s]", "swing"];
-        let mut rows = vec![heading.map(str::to_owned).to_vec()];
-        let mut text = lptn_report::Shortest::new();
         let unit = &self.run.task.unit;
-        for (seen, start) in
-            self.cycle().into_iter().flat_map(|cycle| &cycle.columns).zip(self.starts())
-        {
+        let numbers = |(seen, start): (&ColumnSeen, f64)| {
             let [mean, min, max] = [seen.mean, seen.min.0, seen.max.0].map(|x| seen.shown(x, unit));
-            let numbers = [start, mean, min, seen.min.1, max, seen.max.1, max - min];
-            let mut row = vec![seen.name.clone(), symbol(&seen.unit(unit)).to_owned()];
-            row.extend(numbers.map(|number| text.text(number).to_owned()));
-            rows.push(row);
-        }
-        Rows::Words(rows)
+            [start, mean, min, max, max - min, seen.min.1, seen.max.1]
+        };
+        let seen = self.cycle().map_or(&[][..], |cycle| &cycle.columns);
+        let rows: Vec<[f64; 7]> = seen.iter().zip(self.starts()).map(numbers).collect();
+        let words = |name, word: &dyn Fn(&ColumnSeen) -> String| {
+            RowColumn::words(name, seen.iter().map(word).collect::<Vec<String>>())
+        };
+        // a column with values of several units has none
+        let values = |name, place: usize| {
+            let mut text = Shortest::new();
+            let cells = rows.iter().map(|row| text.text(row[place]).to_owned());
+            RowColumn::words(name, cells.collect::<Vec<String>>())
+        };
+        let times = |name, place: usize| {
+            RowColumn::numbers(name, "s", rows.iter().map(|row| row[place]).collect::<Vec<f64>>())
+        };
+        Rows::Columns(vec![
+            words("name", &|seen| seen.name.clone()),
+            words("unit", &|seen| symbol(&seen.unit(unit)).to_owned()),
+            values("start", 0),
+            values("mean", 1),
+            values("min", 2),
+            times("min_at", 5),
+            values("max", 3),
+            times("max_at", 6),
+            values("swing", 4),
+        ])
     }
 
     fn more(&self) -> Report {

@@ -4,7 +4,7 @@ use std::io;
 
 use lptn_netlist::{Arrangement, Gearbox, Member};
 use lptn_plot::Figure;
-use lptn_report::{Json, Page, Report, Rows, Shortest, Text, significant};
+use lptn_report::{Json, Page, Report, RowColumn, Rows, Text, significant};
 use lptn_study::{GearState, MemberState, MeshTeeth, PartLoss, SiValue};
 use serde_json::{Value, json};
 
@@ -13,8 +13,8 @@ use super::{Block, GearAnswer};
 use crate::about::{self, Known};
 use crate::ranges;
 
-/// A piece of a table: its column and the value of it, if it has one.
-type Cell = (String, Option<f64>);
+/// A piece of a table: name and unit of its column, and the value, if it has one.
+type Cell = (String, String, Option<f64>);
 
 impl GearAnswer {
     /// Text on a stage: `planetary, ring held, 18/42/102 teeth, 3 planets, ratio 6.667`.
@@ -90,21 +90,23 @@ impl GearAnswer {
     }
 
     fn cells(&self, speed: f64, state: &GearState) -> Vec<Cell> {
-        let mut cells: Vec<Cell> = vec![("speed [rpm]".into(), Some(rpm(speed)))];
-        cells.push(("torque [N m]".into(), state.torque(&self.task())));
-        cells.push((
-            format!("warmest node [{}]", self.unit.text),
-            Some(self.unit.from_si(warmest(state))),
-        ));
-        cells.push(("loss [W]".into(), Some(state.loss())));
-        cells.push(("exponent [-]".into(), of_all(state, |part| part.exponent)));
-        cells.push(("exponent settled [-]".into(), of_all(state, |part| part.followed)));
-        cells.push(("efficiency [-]".into(), state.efficiency(&self.task())));
-        cells.push(("drag [N m]".into(), state.drag(&self.task())));
+        let task = self.task();
+        let cell = |name: &str, unit: &str, value| (name.to_owned(), unit.to_owned(), value);
+        let mut cells = vec![
+            cell("speed", "rpm", Some(rpm(speed))),
+            cell("torque", "N m", state.torque(&task)),
+            cell("warmest node", &self.unit.text, Some(self.unit.from_si(warmest(state)))),
+            cell("loss", "W", Some(state.loss())),
+            cell("exponent", "1", of_all(state, |part| part.exponent)),
+            cell("exponent settled", "1", of_all(state, |part| part.followed)),
+            cell("efficiency", "1", state.efficiency(&task)),
+            cell("drag", "N m", state.drag(&task)),
+        ];
         for part in &state.losses {
-            cells.push((format!("{} [W]", part.name), Some(part.heat)));
-            cells.push((format!("{} exponent [-]", part.name), part.exponent));
-            cells.push((format!("{} exponent settled [-]", part.name), part.followed));
+            let settled = format!("{} exponent settled", part.name);
+            cells.push(cell(&part.name, "W", Some(part.heat)));
+            cells.push(cell(&format!("{} exponent", part.name), "1", part.exponent));
+            cells.push(cell(&settled, "1", part.followed));
         }
         cells
     }
@@ -193,18 +195,20 @@ impl Page for GearAnswer {
     }
 
     fn rows(&self) -> Rows<'_> {
-        let mut shortest = Shortest::new();
-        let mut text = |value: f64| shortest.text(value).to_owned();
-        let mut rows: Vec<Vec<String>> = Vec::new();
+        let mut columns: Vec<(String, String, Vec<f64>)> = Vec::new();
         for (_, speed, state) in self.states() {
             let cells = self.cells(speed, state);
-            if rows.is_empty() {
-                rows.push(cells.iter().map(|(name, _)| name.clone()).collect());
+            if columns.is_empty() {
+                let empty =
+                    cells.iter().map(|(name, unit, _)| (name.clone(), unit.clone(), vec![]));
+                columns = empty.collect();
             }
-            let values = cells.iter().map(|(_, value)| value.map_or_else(String::new, &mut text));
-            rows.push(values.collect());
+            for ((_, _, values), (_, _, value)) in columns.iter_mut().zip(cells) {
+                values.push(value.unwrap_or(f64::NAN));
+            }
         }
-        Rows::Words(rows)
+        let columns = columns.into_iter();
+        Rows::Columns(columns.map(|(name, unit, of)| RowColumn::numbers(name, unit, of)).collect())
     }
 
     fn figures(&self) -> Vec<Figure> {

@@ -52,6 +52,11 @@ impl Column {
         let unit = if self.unit.text == "1" { "-" } else { &self.unit.text };
         format!("{} [{unit}]", self.name)
     }
+
+    /// The unit in a word: `1` for plain numbers.
+    pub(super) fn unit_text(&self) -> &str {
+        if self.unit.text.is_empty() { "1" } else { &self.unit.text }
+    }
 }
 
 /// A sweep of a netlist.

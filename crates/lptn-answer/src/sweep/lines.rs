@@ -73,9 +73,8 @@ pub fn read_row(line: &[u8], shape: RowShape) -> Option<Row> {
     (cells.len() == shape.columns).then_some(row)
 }
 
-/// The row of a line as JSON: numbers, `null` for none, the code last.
-pub(super) fn json_row(line: &[u8], shape: RowShape) -> Option<String> {
-    let row = read_row(line, shape)?;
+/// A row as JSON: numbers, `null` for none, the code last.
+pub(super) fn json_row(row: &Row, shape: RowShape) -> String {
     let word = |word: &str| if word.is_empty() { Value::Null } else { json!(word) };
     let mut cells = vec![json!(row.case + 1)];
     cells.extend(row.numbers.iter().map(|number| json!(number)));
@@ -86,5 +85,5 @@ pub(super) fn json_row(line: &[u8], shape: RowShape) -> Option<String> {
         shape.ranged.then(|| if row.failed.is_empty() { json!(row.outside) } else { Value::Null }),
     );
     cells.push(word(&row.failed));
-    Some(Value::Array(cells).to_string())
+    Value::Array(cells).to_string()
 }

@@ -12,7 +12,8 @@ use lptn_study::standing::{BROKEN, KEPT, NOT_JUDGED, WARNING};
 use serde_json::{Map, Value, json};
 
 use super::asked::{Column, JUDGED, SweepAsked};
-use super::lines::{Lines, json_row};
+use super::kept::KeptRows;
+use super::lines::{Lines, json_row, read_row};
 use super::row::Row;
 use super::tally::{Count, Tally};
 use crate::about::{self, Known};
@@ -34,8 +35,8 @@ const FEW: u64 = 20;
 pub enum Rows {
     /// In a file.
     In(PathBuf),
-    /// In memory, without the heading.
-    Kept(Vec<u8>),
+    /// In memory.
+    Kept(KeptRows),
 }
 
 /// A sweep that is done.
@@ -237,10 +238,9 @@ impl SweepAnswer {
         let axes = self.axes();
         row.map_or(Value::Null, |row| {
             let column = &self.reports()[place];
-            let unit = if column.unit.text.is_empty() { "1" } else { &column.unit.text };
             json!({
                 "value": row.numbers[axes.len() + place],
-                "unit": unit,
+                "unit": column.unit_text(),
                 "case": row.case + 1,
             })
         })
@@ -249,10 +249,12 @@ impl SweepAnswer {
     fn write_rows(&self, json: &mut Json<'_>) -> io::Result<()> {
         let shape = self.asked.shape();
         let damaged = || io::Error::new(io::ErrorKind::InvalidData, "a row is damaged");
-        let row = |line: &[u8]| json_row(line, shape).ok_or_else(damaged);
+        let row = |line: &[u8]| {
+            read_row(line, shape).map(|row| json_row(&row, shape)).ok_or_else(damaged)
+        };
         match &self.rows {
-            Rows::Kept(bytes) => {
-                json.texts("rows", bytes.split_inclusive(|byte| *byte == b'\n').map(row))
+            Rows::Kept(kept) => {
+                json.texts("rows", kept.rows().map(|row| Ok(json_row(&row, shape))))
             }
             Rows::In(path) => {
                 let mut lines = Lines::open(path).map_err(|_| io::ErrorKind::NotFound)?;
@@ -292,11 +294,10 @@ impl Page for SweepAnswer {
 
     /// The rows that are in memory; those of a file are there already.
     fn rows(&self) -> lptn_report::Rows<'_> {
-        let Rows::Kept(bytes) = &self.rows else { return lptn_report::Rows::Words(Vec::new()) };
-        let text = String::from_utf8_lossy(bytes);
-        let cells = |line: &str| line.split(',').map(str::to_owned).collect();
-        let rows = [self.asked.header()].into_iter().chain(text.lines().map(cells));
-        lptn_report::Rows::Words(rows.collect())
+        lptn_report::Rows::Columns(match &self.rows {
+            Rows::Kept(kept) => kept.columns(&self.asked),
+            Rows::In(_) => Vec::new(),
+        })
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -339,10 +340,8 @@ impl SweepAnswer {
     fn columns(&self) -> Vec<Value> {
         let one = |name: &str, unit: Option<&str>| json!({ "name": name, "unit": unit });
         let mut columns = vec![one("case", Some("1"))];
-        columns.extend(self.asked.columns.iter().map(|column| {
-            let unit = if column.unit.text.is_empty() { "1" } else { &column.unit.text };
-            one(&column.name, Some(unit))
-        }));
+        let numbers = self.asked.columns.iter();
+        columns.extend(numbers.map(|column| one(&column.name, Some(column.unit_text()))));
         if self.asked.is_judged() {
             columns.extend(JUDGED.map(|name| one(name, None)));
         }

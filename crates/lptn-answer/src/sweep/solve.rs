@@ -3,11 +3,11 @@
 use std::ops::{ControlFlow, Range};
 
 use lptn_netlist::{Diagnostic, SweepOver};
-use lptn_report::CsvLines;
 use lptn_solve::{Proceed, available_threads, in_order};
 use lptn_study::sweep::{Candidate, LinearSweep};
 
 use super::asked::SweepAsked;
+use super::kept::{KeptRows, RowForm};
 use super::page::{Rows, SweepAnswer};
 use super::row::Row;
 use super::tally::Tally;
@@ -21,15 +21,12 @@ const LINEAR: u64 = 1024;
 const STEADY: u64 = 16;
 
 /// Some rows in order.
-struct Chunk {
-    text: Vec<u8>,
+struct Chunk<R> {
+    rows: R,
     tally: Tally,
     /// True if an interruption ended it before its last row.
     interrupted: bool,
 }
-
-/// Takes the text of rows, in order.
-pub type Sink<'a> = dyn FnMut(&[u8]) -> Result<(), Failure> + 'a;
 
 impl SweepAsked {
     /// Solves all cases on this number of threads, or on all, and keeps their rows in memory.
@@ -41,9 +38,9 @@ impl SweepAsked {
         threads: Option<usize>,
         listener: &dyn Listener,
     ) -> Result<SweepAnswer, Failure> {
-        let (mut tally, mut kept) = (self.tally(), Vec::new());
-        let mut sink = |rows: &[u8]| {
-            kept.extend_from_slice(rows);
+        let (mut tally, mut kept) = (self.tally(), KeptRows::default());
+        let mut sink = |rows| {
+            kept.append(rows);
             Ok(())
         };
         let from = (self.range.start, threads.unwrap_or_else(available_threads));
@@ -55,15 +52,15 @@ impl SweepAsked {
         Ok(SweepAnswer { asked: self, tally, rows: Rows::Kept(kept) })
     }
 
-    /// Solves the cases from `from` on and passes their rows to `sink`, in order.
+    /// Solves the cases from `from` on and passes their rows to `sink`, many at a time, in order.
     /// True if an interruption ended it early.
     ///
     /// # Errors
     /// The first error of `sink`.
-    pub fn solve(
+    pub fn solve<R: RowForm>(
         &self,
         (from, threads): (u64, usize),
-        (tally, sink): (&mut Tally, &mut Sink<'_>),
+        (tally, sink): (&mut Tally, &mut dyn FnMut(R) -> Result<(), Failure>),
         listener: &dyn Listener,
     ) -> Result<bool, Failure> {
         let (to, size) = (self.range.end, self.size());
@@ -73,10 +70,10 @@ impl SweepAsked {
         let empty = tally.part();
         let chunk = |number: u64| {
             let first = from + number * size;
-            self.chunk(first..to.min(first + size), empty.clone(), listener)
+            self.chunk::<R>(first..to.min(first + size), empty.clone(), listener)
         };
         in_order(0..(to - from).div_ceil(size), threads, chunk, |chunk| {
-            outcome = sink(&chunk.text);
+            outcome = sink(chunk.rows);
             interrupted = chunk.interrupted;
             tally.append(chunk.tally);
             listener.rate((tally.rows, all, "candidates"), before);
@@ -96,9 +93,14 @@ impl SweepAsked {
         }
     }
 
-    fn chunk(&self, cases: Range<u64>, tally: Tally, listener: &dyn Listener) -> Chunk {
-        let mut chunk = Chunk { text: Vec::new(), tally, interrupted: false };
-        let mut lines = CsvLines::new();
+    fn chunk<R: RowForm>(
+        &self,
+        cases: Range<u64>,
+        tally: Tally,
+        listener: &dyn Listener,
+    ) -> Chunk<R> {
+        let mut chunk = Chunk { rows: R::default(), tally, interrupted: false };
+        let shape = self.shape();
         let mut linear = LinearSweep::new(&self.task);
         let (mut candidate, mut row) = (Candidate::default(), Row::default());
         for case in cases {
@@ -115,10 +117,9 @@ impl SweepAsked {
                 candidate = found;
             }
             self.row(case, &candidate, &mut row);
-            self.write(&row, &mut lines);
+            chunk.rows.take(&row, shape);
             chunk.tally.row(&row);
         }
-        chunk.text = lines.into_bytes();
         chunk
     }
 
@@ -141,26 +142,5 @@ impl SweepAsked {
         row.outside = candidate.outside as u64;
         row.failed.clear();
         row.failed.push_str(candidate.failed.unwrap_or_default());
-    }
-
-    fn write(&self, row: &Row, lines: &mut CsvLines) {
-        lines.whole(row.case + 1);
-        for number in &row.numbers {
-            match number.is_finite() {
-                true => lines.number(*number),
-                false => lines.word(""),
-            }
-        }
-        if self.is_judged() {
-            lines.word(&row.limits);
-            lines.word(&row.worst);
-        }
-        match (self.ranged, row.failed.is_empty()) {
-            (true, true) => lines.whole(row.outside),
-            (true, false) => lines.word(""),
-            (false, _) => {}
-        }
-        lines.word(&row.failed);
-        lines.end();
     }
 }

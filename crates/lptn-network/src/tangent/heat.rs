@@ -1,16 +1,17 @@
 //! Changes of the heat flows of a network with a parameter, at fixed temperatures of the nodes.
 
+use std::ops::Range;
+
 use lptn_units::Scalar;
 
-use super::reads::each;
+use super::reads::{Lanes, each, free};
 use super::{Known, Pass, Tangents};
 use crate::evaluation::{Evaluation, Slope};
-use crate::id::{Field, Item};
+use crate::id::{ConductorId, Field, Item};
 use crate::input_error::InputError;
-use crate::law::At;
+use crate::law::{At, ConductorFlow, Received};
 use crate::network::Network;
 use crate::network::flow::{name, place};
-use crate::parts::dependence::Dependence;
 use crate::parts::signal::Course;
 use crate::slot;
 
@@ -56,6 +57,46 @@ impl Tangents {
         self.each_heat(network, (scope, temperatures), add)
     }
 
+    /// Keeps the changes of all heats at this state, and the derivatives by temperatures that the same
+    /// evaluations give.
+    ///
+    /// # Errors
+    /// As [`Tangents::heat`].
+    pub fn keep_heats(
+        &mut self,
+        network: &Network,
+        scope: &Evaluation,
+        temperatures: &[f64],
+    ) -> Result<(), InputError> {
+        let mut kept = std::mem::take(&mut self.kept);
+        kept.clear();
+        let add = &mut |vertex: usize, variable: usize, slope: f64| {
+            kept.push((vertex, variable, slope));
+        };
+        let done = self.each_heat(network, (scope, temperatures), add);
+        self.kept = kept;
+        done
+    }
+
+    /// The same as [`Tangents::add_heat_against`] for the heats that are kept.
+    pub fn add_kept_against(&self, weights: &[f64], out: &mut [f64]) {
+        for (vertex, variable, slope) in &self.kept {
+            out[*variable] += weights[*vertex] * slope;
+        }
+    }
+
+    /// True if heats that are kept have derivatives by temperatures too.
+    pub fn shares_slopes(&self) -> bool {
+        !self.slopes.is_empty()
+    }
+
+    /// Derivatives in W/K of the heats that the ends of a conductor receive, by each of
+    /// [`Network::conductor_variables`], for the heats that are kept; `None` if they were not taken.
+    pub fn kept_slopes(&self, id: ConductorId) -> Option<&[Received]> {
+        let range = self.shared.get(&id)?;
+        self.slopes.get(range.clone())
+    }
+
     /// Calls `add` with a vertex, the position of a variable and the change of a heat that the vertex
     /// receives, for every heat that changes with the variable.
     fn each_heat(
@@ -66,10 +107,47 @@ impl Tangents {
     ) -> Result<(), InputError> {
         for pass in &mut self.passes {
             pass.read_inputs(network, at)?;
-            pass.each_conductor(network, at, add)?;
+            pass.each_conductor(network, at, (add, &mut self.slopes))?;
             pass.each_source(network, at, add)?;
         }
         Ok(())
+    }
+}
+
+/// The places of dual numbers that no variable takes, for the temperatures that a conductor reads.
+#[derive(Clone, Debug)]
+pub(super) struct Seeds {
+    /// The first of as many places of [`Tangents::kept_slopes`] as there are temperatures.
+    first: usize,
+    places: Vec<usize>,
+}
+
+impl Seeds {
+    /// `None` if there are too few places, or if the derivatives by temperatures have another form.
+    pub(super) fn of(network: &Network, (id, lanes): (ConductorId, &Lanes)) -> Option<Self> {
+        let count = network.parts.dependence(id).vertices.len();
+        let plain = network.flow(id) == ConductorFlow::Variable && network.along(id).is_none();
+        let places: Vec<usize> = free(lanes).take(count).collect();
+        (plain && count > 0 && places.len() == count).then_some(Self { first: 0, places })
+    }
+
+    /// Gives them places after these slopes.
+    pub(super) fn enter(&mut self, slopes: &mut Vec<Received>) -> Range<usize> {
+        self.first = slopes.len();
+        slopes.resize(self.first + self.places.len(), [0.0; 2]);
+        self.first..slopes.len()
+    }
+
+    fn seed(&self, position: usize, temperature: &mut Slope) {
+        if let Some(place) = self.places.get(position) {
+            temperature.derivatives[*place] = 1.0;
+        }
+    }
+
+    fn keep(&self, [from, to]: &[Slope; 2], slopes: &mut [Received]) {
+        for (slope, place) in slopes[self.first..].iter_mut().zip(&self.places) {
+            *slope = [from.derivatives[*place], to.derivatives[*place]];
+        }
     }
 }
 
@@ -118,7 +196,7 @@ impl Pass {
         &mut self,
         network: &Network,
         (scope, temperatures): (&Evaluation, &[f64]),
-        add: &mut Add<'_>,
+        (add, slopes): (&mut Add<'_>, &mut [Received]),
     ) -> Result<(), InputError> {
         let Self { slots, stack, boundaries, reads, .. } = self;
         for path in &reads.conductors {
@@ -136,14 +214,22 @@ impl Pass {
                     network.received_of((&conductor.law, value), At::new((slots, stack)), from, to)
                 }
                 Known::No => {
-                    place_ends(slots, &network.parts.dependence(path.id), ends, &dual);
+                    let dependence = network.parts.dependence(path.id);
+                    let seeded = |k: usize| {
+                        let vertex = dependence.vertices.get(k);
+                        let mut dual = dual(vertex.map_or_else(|| ends[k], |v| *v as usize));
+                        path.seeds.iter().for_each(|seeds| seeds.seed(k, &mut dual));
+                        dual
+                    };
+                    place(slots, &dependence, &seeded);
                     let along = network.along(path.id);
                     let at = At { by_parameters: true, ..At::path((slots, stack), along) };
-                    network.received(conductor, at, from, to)
+                    network.received(conductor, at, seeded(0), seeded(1))
                 }
             };
             let received = received
                 .map_err(|failed| network.failed(Item::Conductor(path.id), failed, scope))?;
+            path.seeds.iter().for_each(|seeds| seeds.keep(&received, slopes));
             for (vertex, heat) in ends.into_iter().zip(received) {
                 each(&path.lanes, &heat.derivatives).for_each(|(k, slope)| add(vertex, k, slope));
             }
@@ -186,15 +272,4 @@ fn of_vertex(
         Some(boundary) => boundaries[boundary],
         None => Slope::from_f64(temperatures[vertex]),
     }
-}
-
-/// The same as [`place`], for constant conductors too, whose dependence is not stored.
-fn place_ends(
-    slots: &mut [Slope],
-    of: &Dependence,
-    ends: [usize; 2],
-    dual: &dyn Fn(usize) -> Slope,
-) {
-    let at = |k: usize| dual(of.vertices.get(k).map_or_else(|| ends[k], |&vertex| vertex as usize));
-    place(slots, of, &at);
 }

@@ -15,7 +15,9 @@ mod reads;
 mod refusal;
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
+use foldhash::{HashMap, HashMapExt as _};
 use lptn_units::Scalar;
 
 use crate::End;
@@ -23,10 +25,11 @@ use crate::evaluation::Slope;
 use crate::id::{
     BoundaryId, ConductorId, ControlId, NodeId, ParameterId, SignalId, SourceId, SwitchId,
 };
-use crate::law::{At, ConductorFlow};
+use crate::law::{At, ConductorFlow, Received};
 use crate::network::Network;
 use crate::slot;
 use content::Content;
+use heat::Seeds;
 use influence::Influence;
 use reads::{Lanes, Place, Read};
 
@@ -49,6 +52,12 @@ pub enum Variable {
 pub struct Tangents {
     variables: Vec<Variable>,
     passes: Vec<Pass>,
+    /// The heats that are kept: a vertex, the position of a variable, the change in W.
+    kept: Vec<(usize, usize, f64)>,
+    /// By conductor, its places in `slopes`.
+    shared: HashMap<ConductorId, Range<usize>>,
+    /// Derivatives in W/K of the heats of both ends by the temperatures that conductors read.
+    slopes: Vec<Received>,
 }
 
 /// Variables that are followed together: those with one place in the dual numbers change nothing in
@@ -81,6 +90,8 @@ struct Path {
     id: ConductorId,
     lanes: Lanes,
     law: Known,
+    /// In one of the passes of a conductor.
+    seeds: Option<Seeds>,
 }
 
 /// The value of a law, if it is constant over a run.
@@ -184,7 +195,15 @@ impl Network {
             pass.take(self, reads, &mut bodies)?;
             passes.push(pass);
         }
-        Ok(Tangents { variables: variables.to_vec(), passes })
+        let (mut shared, mut slopes) = (HashMap::new(), Vec::new());
+        for path in passes.iter_mut().flat_map(|pass| &mut pass.reads.conductors) {
+            if !shared.contains_key(&path.id) {
+                path.seeds = Seeds::of(self, (path.id, &path.lanes));
+                let range = path.seeds.as_mut().map(|seeds| seeds.enter(&mut slopes));
+                range.into_iter().for_each(|range| drop(shared.insert(path.id, range)));
+            }
+        }
+        Ok(Tangents { variables: variables.to_vec(), passes, kept: Vec::new(), shared, slopes })
     }
 }
 
@@ -254,7 +273,7 @@ impl Pass {
             match read {
                 Read::Conductor(id) => {
                     let law = self.known_law(network, id);
-                    self.reads.conductors.push(Path { id, lanes, law });
+                    self.reads.conductors.push(Path { id, lanes, law, seeds: None });
                 }
                 Read::Source(id) => self.reads.sources.push((id, lanes)),
                 Read::Boundary(id) => self.reads.boundaries.push(id),

@@ -75,6 +75,11 @@ pub(super) fn each(lanes: &Lanes, slopes: &[f64; PASS]) -> impl Iterator<Item = 
     all.map(|(lane, slope)| (*lane as usize, *slope))
 }
 
+/// The places of a dual number without a variable.
+pub(super) fn free(lanes: &Lanes) -> impl Iterator<Item = usize> + '_ {
+    (0..PASS).filter(|place| lanes[*place] == NONE)
+}
+
 /// A follower of a slot.
 #[derive(Clone, Copy)]
 enum Reader {

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import csv
 import json
-import os
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +14,7 @@ from ._result import Result
 from ._values import known, one_of
 
 if TYPE_CHECKING:
+    from ._numpy import np
     from ._network import Network
 
 # Most temperatures that are reported without being asked for.
@@ -30,27 +29,24 @@ def sweep(
     words: dict[str, Any],
 ) -> Result:
     """Solves the rows of a frame: a DataFrame, or a dictionary of columns."""
-    import tempfile
-
     one_of("over", over, ("steady", "run", "periodic"))
-    with tempfile.TemporaryDirectory(prefix="lptn-") as folder:
-        file = os.path.join(folder, CANDIDATES)
-        _write(file, _columns(network, frame))
-        lines = ["", "[sweep.frame]", 'method = "csv"', f"file = {json.dumps(file)}"]
-        lines += [f"over = {json.dumps(over)}", "[sweep.frame.report]"]
-        named = report or _temperatures(network, over)
-        if not isinstance(named, Mapping):
-            raise TypeError('report takes names and results: {"hot": "steel.T"}')
-        lines += [f"{name} = {json.dumps(text)}" for name, text in named.items()]
-        text, name = network.text
-        try:
-            netlist = _lptn.Netlist.parse(text + "\n".join(lines) + "\n", name, network._set)
-            with shown(words) as words:
-                answer = netlist.ask("sweep", [], {**words, "name": "frame"})
-        except Error as error:
-            error.within(text.count("\n") + 1)
-            raise
-        return answered(answer, "sweep", words, 3, network=network)
+    columns = _columns(network, frame)
+    lines = ["", "[sweep.frame]", 'method = "csv"', f"file = {json.dumps(CANDIDATES)}"]
+    lines += [f"over = {json.dumps(over)}", "[sweep.frame.report]"]
+    named = report or _temperatures(network, over)
+    if not isinstance(named, Mapping):
+        raise TypeError('report takes names and results: {"hot": "steel.T"}')
+    lines += [f"{name} = {json.dumps(text)}" for name, text in named.items()]
+    text, name = network.text
+    try:
+        whole = (name, text + "\n".join(lines) + "\n")
+        netlist = _lptn.Netlist.with_candidates(whole, CANDIDATES, columns, network._set)
+        with shown(words) as words:
+            answer = netlist.ask("sweep", [], {**words, "name": "frame"})
+    except Error as error:
+        error.within(text.count("\n") + 1)
+        raise
+    return answered(answer, "sweep", words, 3, network=network)
 
 
 def explain(network: Network, error: Error, case: Any) -> None:
@@ -78,41 +74,36 @@ def explain(network: Network, error: Error, case: Any) -> None:
         error.refresh()
 
 
-def _columns(network: Network, frame: Any) -> dict[str, list[float]]:
-    """The columns with the headings of a CSV file: `G_out [W/K]`."""
-    columns: dict[str, list[float]] = {}
+def _columns(network: Network, frame: Any) -> list[tuple[str, bytes]]:
+    """The columns with the headings of a CSV file, such as `G_out [W/K]`, and their numbers."""
+    columns: dict[str, np.ndarray] = {}
     # polars has `columns`, dictionaries have `keys`, pandas both
     heads = list(frame.columns if hasattr(frame, "columns") else frame)
     names = [str(head).partition("[")[0].strip() for head in heads]
     for head, name, (_, unit) in zip(heads, names, known(network._netlist, names)):
         heading = str(head) if "[" in str(head) or not unit else f"{name} [{unit}]"
-        columns[heading] = [
-            cell if type(cell) is float else _number(name, cell) for cell in _cells(name, frame[head])
-        ]
-    if len({len(cells) for cells in columns.values()}) != 1:
-        lengths = ", ".join(f"{name} {len(cells)}" for name, cells in columns.items()) or "none"
+        columns[heading] = _numbers(name, frame[head])
+    if len({len(numbers) for numbers in columns.values()}) != 1:
+        lengths = ", ".join(f"{name} {len(of)}" for name, of in columns.items()) or "none"
         raise TypeError(f"a frame has columns of one length, at least one: it has {lengths}")
-    return columns
+    return [(heading, numbers.tobytes()) for heading, numbers in columns.items()]
 
 
-def _cells(name: str, column: Any) -> list[Any]:
+def _numbers(name: str, column: Any) -> np.ndarray:
     if isinstance(column, str) or not hasattr(column, "__iter__") or getattr(column, "ndim", 1) == 0:
         raise TypeError(f"column `{name}` of the frame is a list of numbers, not {column!r}")
-    return column.tolist() if hasattr(column, "tolist") else list(column)
+    from ._numpy import np
+
+    if getattr(getattr(column, "dtype", None), "kind", "") in ("f", "i", "u") and column.ndim == 1:
+        return np.asarray(column, dtype=np.float64)
+    cells = column.tolist() if hasattr(column, "tolist") else list(column)
+    return np.array([_number(name, cell) for cell in cells], dtype=np.float64)
 
 
 def _number(name: str, value: Any) -> float:
     if isinstance(value, str) or not hasattr(value, "__float__") or getattr(value, "ndim", 0):
         raise TypeError(f"column `{name}` of the frame has numbers, not {value!r}")
     return float(value)
-
-
-def _write(file: str, columns: dict[str, list[float]]) -> None:
-    with open(file, "w", encoding="utf-8", newline="") as out:
-        csv.writer(out).writerow(columns)
-        # repr gives all digits
-        rows = zip(*(map(repr, values) for values in columns.values()))
-        out.write("\n".join(map(",".join, rows)) + "\n")
 
 
 def _temperatures(network: Network, over: str) -> dict[str, str]:

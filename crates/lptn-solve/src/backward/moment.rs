@@ -1,6 +1,6 @@
 //! A system at one time and state of a run that has ended.
 
-use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
+use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::Pattern;
 use lptn_network::{NodeId, ParameterId, Positions, Tangents};
 
@@ -20,6 +20,8 @@ pub(super) struct Moment<'a> {
     pub(super) work: Workspace,
     unfold: Unfold<'a>,
     tangents: Tangents,
+    /// True if the tangents keep the heats of this moment.
+    kept: bool,
     jacobian: Vec<f64>,
     pub(super) turned: Transposed,
     /// Time in s, one inside the segment, and the variables of the states.
@@ -53,6 +55,7 @@ impl<'a> Moment<'a> {
             work: system.workspace(),
             unfold,
             tangents,
+            kept: false,
             jacobian: vec![0.0; pattern.len()],
             turned: Transposed::new(&pattern, system.states().len())?,
             at: (f64::NAN, f64::NAN),
@@ -88,7 +91,7 @@ impl<'a> Moment<'a> {
 
     /// Goes to a time in s, with one inside the segment, and to the variables of the states.
     pub(super) fn go(&mut self, at: (f64, f64), state: &[f64]) -> Result<(), BackwardError> {
-        self.at = at;
+        (self.at, self.kept) = (at, false);
         self.state.copy_from_slice(state);
         self.system.read_inputs(&mut self.work, at.0, at.1)?;
         let unknowns = self.unfold.temperatures(&mut self.work, state);
@@ -114,8 +117,8 @@ impl<'a> Moment<'a> {
 
     /// Takes the Jacobian here.
     pub(super) fn linearise(&mut self) -> Result<(), BackwardError> {
-        let (work, unknowns) = (&mut self.work, self.unfold.last());
-        self.system.jacobian_at(work, unknowns, JacobianForm::Exact, &mut self.jacobian)?;
+        let at = (&mut self.work, self.unfold.last());
+        self.kept = self.system.linearise(at, &mut self.tangents, &mut self.jacobian)?;
         self.turned.take(&self.jacobian);
         Ok(())
     }
@@ -179,7 +182,10 @@ impl<'a> Moment<'a> {
         let nodes = system.node_temperatures(&self.response);
         let mut all = nodes.to_vec();
         all.resize(nodes.len() + system.network().boundaries().len(), 0.0);
-        system.add_tangent_heat(&mut self.tangents, &self.work, &all, out)?;
+        match self.kept {
+            true => self.tangents.add_kept_against(&all, out),
+            false => system.add_tangent_heat(&mut self.tangents, &self.work, &all, out)?,
+        }
         if !self.changes_contents() {
             return Ok(());
         }

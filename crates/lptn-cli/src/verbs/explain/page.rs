@@ -2,7 +2,7 @@
 
 use std::io;
 
-use lptn_report::{Json, Page, Rows, Standing, Text};
+use lptn_report::{Json, Page, RowColumn, Rows, Standing, Text};
 use serde_json::{Value, json};
 
 use super::codes::{Code, Part};
@@ -38,9 +38,11 @@ impl Page for Explained {
     }
 
     fn rows(&self) -> Rows<'_> {
-        let heading = ["code", "summary"].map(str::to_owned).to_vec();
-        let row = |code: &Code| vec![code.code.to_owned(), code.summary().to_owned()];
-        Rows::Words(std::iter::once(heading).chain(self.codes.iter().map(row)).collect())
+        let column = |name, text: fn(&Code) -> &str| {
+            let cells: Vec<String> = self.codes.iter().map(|code| text(code).to_owned()).collect();
+            RowColumn::words(name, cells)
+        };
+        Rows::Columns(vec![column("code", |code| code.code), column("summary", Code::summary)])
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

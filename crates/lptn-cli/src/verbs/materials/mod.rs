@@ -8,13 +8,22 @@ use std::io;
 
 use lptn_netlist::Diagnostic;
 use lptn_netlist::library::{self, LibraryLubricant, LibrarySubstance};
-use lptn_report::{Json, Page, Rows, Text, TextTable, significant};
+use lptn_report::{Json, Page, RowColumn, Rows, Text, TextTable, significant};
 use lptn_study::SiValue;
 use serde_json::{Value, json};
 
 use crate::console::Console;
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
+
+/// Names and units of the columns of numbers.
+const NUMBERS: [(&str, &str); 5] = [
+    ("density", "kg/m^3"),
+    ("cp", "J/(kg K)"),
+    ("k", "W/(m K)"),
+    ("k_through", "W/(m K)"),
+    ("T", "K"),
+];
 
 /// Digits that are shown: the sources give no more.
 const DIGITS: usize = 5;
@@ -95,7 +104,7 @@ impl Page for Found {
     }
 
     fn rows(&self) -> Rows<'_> {
-        Rows::Words(rows(self))
+        Rows::Columns(rows(self))
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -158,38 +167,54 @@ fn describe(record: &LibrarySubstance, text: &mut Text) {
     text.sentence(&format!("{:22}", "source"), &record.source);
 }
 
-fn rows(found: &Found) -> Vec<Vec<String>> {
-    let heading = [
-        "name",
-        "kind",
-        "density [kg/m^3]",
-        "cp [J/(kg K)]",
-        "k [W/(m K)]",
-        "k_through [W/(m K)]",
-        "T [K]",
-        "title",
-        "source",
-    ];
-    let cell = |value: Option<f64>| value.map_or(String::new(), lptn_units::format_number);
-    let row = |kind: &str, r: &LibrarySubstance| {
-        let numbers = [r.density, r.cp, r.k, r.k_through, r.temperature].map(cell);
-        let words = [r.name.clone(), kind.to_owned()];
-        words.into_iter().chain(numbers).chain([r.title.clone(), r.source.clone()]).collect()
-    };
-    // the viscosities are in the title, so that the columns stay the same
-    let oil = |oil: &LibraryLubricant| {
+/// A record of any kind as a row.
+struct Row<'a> {
+    words: [&'a str; 2],
+    /// Density, cp, k, k through the plane, temperature.
+    numbers: [Option<f64>; 5],
+    title: String,
+    source: &'a str,
+}
+
+impl<'a> Row<'a> {
+    fn substance(kind: &'a str, r: &'a LibrarySubstance) -> Self {
+        Row {
+            words: [&r.name, kind],
+            numbers: [r.density, r.cp, r.k, r.k_through, r.temperature],
+            title: r.title.clone(),
+            source: &r.source,
+        }
+    }
+
+    /// The viscosities are in the title, so that the columns stay the same.
+    fn oil(oil: &'a LibraryLubricant) -> Self {
         let [nu_40, nu_100] = oil.viscosity.map(|nu| significant(nu * 1e6, 4));
-        let title =
-            format!("{}, {nu_40} mm^2/s at 40 degC, {nu_100} mm^2/s at 100 degC", oil.title);
-        let numbers = [Some(oil.density), None, None, None, None].map(cell);
-        let words = [oil.name.clone(), "lubricant".to_owned()];
-        words.into_iter().chain(numbers).chain([title, oil.source.clone()]).collect()
+        Row {
+            words: [&oil.name, "lubricant"],
+            numbers: [Some(oil.density), None, None, None, None],
+            title: format!("{}, {nu_40} mm^2/s at 40 degC, {nu_100} mm^2/s at 100 degC", oil.title),
+            source: &oil.source,
+        }
+    }
+}
+
+fn rows(found: &Found) -> Vec<RowColumn<'static>> {
+    let materials = found.materials.iter().map(|record| Row::substance("material", record));
+    let fluids = found.fluids.iter().map(|record| Row::substance("fluid", record));
+    let oils = found.lubricants.iter().map(Row::oil);
+    let rows: Vec<Row<'_>> = materials.chain(fluids).chain(oils).collect();
+    let words = |name: &str, cell: &dyn Fn(&Row<'_>) -> String| {
+        RowColumn::words(name, rows.iter().map(cell).collect::<Vec<String>>())
     };
-    std::iter::once(heading.map(str::to_owned).to_vec())
-        .chain(found.materials.iter().map(|r| row("material", r)))
-        .chain(found.fluids.iter().map(|r| row("fluid", r)))
-        .chain(found.lubricants.iter().map(oil))
-        .collect()
+    let numbers = |(place, (name, unit)): (usize, (&str, &str))| {
+        let cell = |row: &Row<'_>| row.numbers[place].unwrap_or(f64::NAN);
+        RowColumn::numbers(name, unit, rows.iter().map(cell).collect::<Vec<f64>>())
+    };
+    let mut columns =
+        vec![words("name", &|r| r.words[0].to_owned()), words("kind", &|r| r.words[1].to_owned())];
+    columns.extend(NUMBERS.into_iter().enumerate().map(numbers));
+    columns.extend([words("title", &|r| r.title.clone()), words("source", &|r| r.source.into())]);
+    columns
 }
 
 fn oil_members(oils: &[LibraryLubricant]) -> Value {

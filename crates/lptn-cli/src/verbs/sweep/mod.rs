@@ -14,8 +14,8 @@ use lptn_answer::answer::Answer as _;
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::input::{Input, quoted};
-use lptn_answer::sweep::{Rows, SweepAnswer, SweepAsked, SweepQuestion, Tally};
-use lptn_report::{Format, Page as _};
+use lptn_answer::sweep::{KeptRows, Rows, SweepAnswer, SweepAsked, SweepQuestion, Tally};
+use lptn_report::{CsvLines, Format, Page as _};
 use lptn_solve::available_threads;
 
 use args::SweepVerb;
@@ -90,7 +90,7 @@ fn into_folder(
             return Ok(((tally, Rows::In(place)), false));
         }
     };
-    let mut sink = |rows: &[u8]| growing.write(rows);
+    let mut sink = |lines: CsvLines| growing.write(&lines.into_bytes());
     let solve = || asked.solve((from, threads), (&mut tally, &mut sink), &console.listening());
     let interrupted = console.phases.timed("solve", solve)?;
     if !interrupted {
@@ -107,21 +107,26 @@ fn without_files(
     threads: usize,
     console: &Console,
 ) -> Result<Outcome, Failure> {
-    let (mut tally, mut kept) = (asked.tally(), Vec::new());
-    if format == Format::Csv {
-        console.write(|out| out.write_all(&asked.heading()))?;
-    }
-    let mut sink = |rows: &[u8]| match format {
-        Format::Csv => console.write(|out| out.write_all(rows)),
-        Format::Json => {
-            kept.extend_from_slice(rows);
-            Ok(())
+    let (mut tally, mut kept) = (asked.tally(), KeptRows::default());
+    let (from, listening) = ((asked.range.start, threads), console.listening());
+    let interrupted = match format {
+        Format::Csv => {
+            console.write(|out| out.write_all(&asked.heading()))?;
+            let mut print = |lines: CsvLines| {
+                let text = lines.into_bytes();
+                console.write(|out| out.write_all(&text))
+            };
+            asked.solve(from, (&mut tally, &mut print), &listening)?
         }
-        Format::Table => Ok(()),
+        Format::Json => {
+            let mut keep = |rows| {
+                kept.append(rows);
+                Ok(())
+            };
+            asked.solve(from, (&mut tally, &mut keep), &listening)?
+        }
+        Format::Table => asked.solve(from, (&mut tally, &mut |(): ()| Ok(())), &listening)?,
     };
-    let from = asked.range.start;
-    let interrupted =
-        asked.solve((from, threads), (&mut tally, &mut sink), &console.listening())?;
     Ok(((tally, Rows::Kept(kept)), interrupted))
 }
 
