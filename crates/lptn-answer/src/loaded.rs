@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use lptn_netlist::{Netlist, parse_with, read_named};
+use lptn_report::CsvLines;
 
 use crate::belief::Belief;
 use crate::failure::Failure;
@@ -44,19 +45,19 @@ impl Loaded {
         Self::of(text, netlist, set)
     }
 
-    /// The same for a text that names a file which is not on the disk: its bytes, and its path as
-    /// the text gives it.
+    /// The same for a text that names a CSV file which is not on the disk: its path as the text gives
+    /// it, and its columns, each with its heading. They are as long as the first.
     ///
     /// # Errors
     /// As [`Loaded::read`].
-    pub fn with_file(
+    pub fn with_columns(
         (name, text): (&str, &str),
-        (file, bytes): (&str, &[u8]),
+        (file, columns): (&str, &[(String, Vec<f64>)]),
         set: &[String],
     ) -> Result<Self, Failure> {
         let path = Path::new(name).parent().unwrap_or(Path::new("")).join(file);
         let netlist = parse_with(name, text, &mut |asked| match asked == path {
-            true => Ok(bytes.to_vec()),
+            true => Ok(csv(columns)),
             false => read_named(asked),
         });
         Self::of(given(name, text), netlist?, set)
@@ -108,4 +109,16 @@ fn given(name: &str, text: &str) -> Given {
     let stem = Path::new(name).file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let stem = stem.unwrap_or_else(|| "netlist".into());
     Given { bytes: text.into(), name: name.into(), stem }
+}
+
+fn csv(columns: &[(String, Vec<f64>)]) -> Vec<u8> {
+    let mut lines = CsvLines::new();
+    columns.iter().for_each(|(heading, _)| lines.word(heading));
+    lines.end();
+    for row in 0..columns.first().map_or(0, |(_, numbers)| numbers.len()) {
+        let numbers = columns.iter().map(|(_, numbers)| numbers.get(row));
+        numbers.for_each(|number| lines.number(number.copied().unwrap_or(f64::NAN)));
+        lines.end();
+    }
+    lines.into_bytes()
 }

@@ -113,6 +113,23 @@ fn analytic_derivatives_of_heats_and_expressions() {
     }
 }
 
+/// An expression that compares the time is read on its own side of each jump, at a row too.
+#[test]
+fn analytic_an_expression_jumps_at_times_of_its_own() {
+    let jumps = |t: f64, q: f64| if t < 600.0 { q } else { 0.5 * q };
+    let csv =
+        record("q [W]", |t, q| vec![if (200.0..400.0).contains(&t) { 2.0 } else { jumps(t, q) }]);
+    let of = "if(t < 600 [s], 1, 0.5) * if(t < 200 [s], outer.Q, if(t < 400 [s], 2 [W], outer.Q))";
+    let fit = format!(
+        "[fit.all]\ndata = \"r.csv\"\nvary = [\"P\", \"R2\"]\ncolumn.q = {{ of = \"{of}\", sigma = \"1 \
+         W\" }}"
+    );
+    let fit = fitted(&netlist("", &fit, &csv)).unwrap();
+    for (found, expected) in fit.parameters.iter().zip([POWER, 0.17]) {
+        near(found.value, expected, 1e-6);
+    }
+}
+
 /// P, R2, offset and time constant.
 const SCIPY: [f64; 4] = [220.600_002, 0.169_999_996, 2.978_832_55, 39.824_041];
 

@@ -9,7 +9,7 @@ use crate::input_error::{InputError, InputProblem};
 use crate::network::Network;
 use crate::parts::Parts;
 use crate::parts::layout::Holds;
-use crate::parts::signal::Course;
+use crate::parts::watched::Watched;
 use crate::value::Value;
 
 /// Parts of a stretch in which a curve is searched for a bend.
@@ -23,12 +23,6 @@ const MOST_SAMPLES: f64 = 1e6;
 
 /// A stretch of time without a point of a signal inside, from and to in s.
 type Stretch = (f64, f64);
-
-/// Values that are evaluated over time, and the signals that they read.
-pub(crate) struct Watched<'a> {
-    pub(crate) values: Vec<&'a Value>,
-    pub(crate) signals: Vec<bool>,
-}
 
 impl Network {
     /// The times inside `(start, stop)` in s at which an input of the heat flows may bend or jump,
@@ -87,6 +81,18 @@ impl Network {
         (start, stop): (f64, f64),
     ) -> Result<Vec<f64>, InputError> {
         self.times_of(&self.parts.results(items), (start, stop))
+    }
+
+    /// The same for a value that is not part of the network.
+    ///
+    /// # Errors
+    /// As [`Network::breakpoints`].
+    pub fn value_breakpoints(
+        &self,
+        value: &Value,
+        span: (f64, f64),
+    ) -> Result<Vec<f64>, InputError> {
+        self.times_of(&self.parts.watched(vec![value], &[]), span)
     }
 
     /// Everything that is evaluated over time in addition to the inputs of the heat flows: limits,
@@ -284,45 +290,6 @@ pub fn same_time(start: f64, stop: f64) -> f64 {
 }
 
 impl Parts {
-    /// Values that drive the heat flows or decide when something switches, and their signals.
-    pub(crate) fn driving(&self) -> Watched<'_> {
-        let roots = self.inputs().filter(|(item, _, _)| !matches!(item, Item::Signal(_)));
-        self.watched(roots.map(|(_, _, value)| value).collect(), &[])
-    }
-
-    /// Values of the results of these items, limits and reports, and signals that they read.
-    pub(crate) fn results(&self, items: &[Item]) -> Watched<'_> {
-        let (mut values, mut signals) = (Vec::new(), Vec::new());
-        for item in items {
-            match *item {
-                Item::Limit(id) => values.extend(self.limits[id.index()].sides()),
-                Item::Report(id) => values.push(&self.reports[id.index()].value),
-                Item::Signal(id) => signals.push(id),
-                _ => {}
-            }
-        }
-        self.watched(values, &signals)
-    }
-
-    /// With the signals that are read, by other signals too.
-    pub(crate) fn watched<'a>(
-        &'a self,
-        mut values: Vec<&'a Value>,
-        signals: &[SignalId],
-    ) -> Watched<'a> {
-        let mut used = vec![false; self.layout.signals().len()];
-        values.iter().for_each(|value| self.mark_signals(value, &mut used));
-        signals.iter().for_each(|id| used[id.index()] = true);
-        // a signal reads only those before it
-        for (i, signal) in self.layout.signals().iter().enumerate().rev() {
-            if let (true, Course::Expression(value)) = (used[i], &signal.course) {
-                self.mark_signals(value, &mut used);
-                values.push(value);
-            }
-        }
-        Watched { values, signals: used }
-    }
-
     /// Degree in time of a value between the points of the signals it reads, at fixed temperatures.
     pub(crate) fn course(&self, value: &Value) -> Degree {
         let mut factors = value.programs().into_iter().map(|program| self.course_of(program));

@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use lptn_units::{Degree, Program, SlotKind};
 
-use crate::breakpoints::Watched;
 use crate::evaluation::Evaluation;
 use crate::id::{End, Item};
 use crate::network::Network;
 use crate::parts::Parts;
 use crate::parts::layout::Holds;
+use crate::parts::watched::Watched;
 use crate::slot;
 use crate::value::Value;
 

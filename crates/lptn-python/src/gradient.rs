@@ -17,6 +17,7 @@ type Found = (Vec<f64>, Vec<Vec<f64>>);
 #[pyclass(frozen, module = "lptn._lptn")]
 pub(crate) struct Gradient {
     asked: SweepAsked,
+    reports: usize,
     limits: Vec<LimitId>,
     parameters: Vec<Unit>,
     results: Vec<Unit>,
@@ -36,15 +37,16 @@ fn limit(asked: &SweepAsked, name: &str) -> PyResult<(LimitId, Unit)> {
 
 #[pymethods]
 impl Gradient {
-    /// The reports of the study of this name, and the margins of these limits; over a run with
+    /// The first reports of the study of this name, and the margins of these limits; over a run with
     /// this stop and tolerance, if they are given.
     #[new]
     fn new(
         netlist: &Netlist,
-        study: String,
+        study: (String, usize),
         margins: Vec<String>,
         over: (Option<String>, Option<String>),
     ) -> PyResult<Self> {
+        let (study, reports) = study;
         let (stop, within) = over;
         let mut input = Input::clone(netlist.loaded.usual());
         input.set_times(stop.as_deref(), None).map_err(failed)?;
@@ -56,11 +58,11 @@ impl Gradient {
         let asked = question.of(Arc::new(input)).map_err(failed)?;
         let limits: PyResult<Vec<_>> = margins.iter().map(|name| limit(&asked, name)).collect();
         let (limits, units): (Vec<LimitId>, Vec<Unit>) = limits?.into_iter().unzip();
-        let (axes, reports) = (asked.task().cases().parameters().len(), asked.task().study());
+        let axes = asked.task().cases().parameters().len();
         let parameters = asked.columns[..axes].iter().map(|column| column.unit.clone()).collect();
-        let results = &asked.columns[axes..axes + reports.reports.len()];
+        let results = &asked.columns[axes..axes + reports];
         let results = results.iter().map(|column| column.unit.clone()).chain(units).collect();
-        Ok(Self { asked, limits, parameters, results })
+        Ok(Self { asked, reports, limits, parameters, results })
     }
 
     /// The own values of the parameters, in their units.
@@ -89,7 +91,8 @@ impl Gradient {
         let hearing = Hearing::default();
         let work = || {
             let observer = |progress| hearing.progress(progress);
-            let found = self.asked.task().gradients(&values, &self.limits, &observer);
+            let found =
+                self.asked.task().gradients(&values, (self.reports, &self.limits), &observer);
             found.map_err(|error| lptn::Failure::of(&error).into())
         };
         let found = hearing.watch(py, work).map_err(|trouble| raised_by(py, trouble, &hearing))?;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use lptn::{CsvLines, Exit, Failure, Loaded, Unit};
+use lptn::{Exit, Failure, Loaded, Unit};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -62,7 +62,12 @@ impl Netlist {
         set: &Bound<'_, PyDict>,
     ) -> PyResult<Self> {
         let set = assignments(set)?;
-        let read = || Loaded::with_file(text, (file, &candidates(&columns)), &set);
+        let number = |bytes: &[u8]| bytes.try_into().map_or(f64::NAN, f64::from_ne_bytes);
+        let columns = columns.into_iter().map(|(heading, bytes)| {
+            (heading, bytes.chunks_exact(SIZE).map(number).collect::<Vec<f64>>())
+        });
+        let columns: Vec<_> = columns.collect();
+        let read = || Loaded::with_columns(text, (file, &columns), &set);
         Ok(Self { loaded: py.detach(read).map_err(failed)?, file: None })
     }
 
@@ -123,20 +128,6 @@ impl Netlist {
             None => Ok(netlist.expanded()),
         }
     }
-}
-
-/// The CSV file of these columns.
-fn candidates(columns: &[(String, Vec<u8>)]) -> Vec<u8> {
-    let mut lines = CsvLines::new();
-    columns.iter().for_each(|(heading, _)| lines.word(heading));
-    lines.end();
-    let mut values: Vec<_> = columns.iter().map(|(_, bytes)| bytes.chunks_exact(SIZE)).collect();
-    for _ in 0..values.first().map_or(0, ExactSizeIterator::len) {
-        let bytes = values.iter_mut().map(|column| column.next().unwrap_or_default());
-        bytes.for_each(|bytes| lines.number(bytes.try_into().map_or(f64::NAN, f64::from_ne_bytes)));
-        lines.end();
-    }
-    lines.into_bytes()
 }
 
 /// Scale, offset and SI unit of a unit: `si = (value + offset) * scale`.

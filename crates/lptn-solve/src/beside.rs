@@ -21,7 +21,11 @@ impl Solution {
         changed: (ParameterId, f64),
     ) -> Result<Vec<f64>, ChangeError> {
         let mut values = Vec::with_capacity(self.times.len());
-        self.replay_beside(changed, 0..self.times.len(), |at| values.push(at.result(value)))?;
+        let Some(insides) = self.insides_of(value) else {
+            return Ok(vec![f64::NAN; self.times.len()]);
+        };
+        let rows = (0..self.times.len(), &*insides);
+        self.replay_beside(changed, rows, |at| values.push(at.result(value)))?;
         Ok(values)
     }
 
@@ -39,14 +43,15 @@ impl Solution {
         changed: (ParameterId, f64),
     ) -> Result<Result<f64, InputError>, ChangeError> {
         let mut margin = Ok(f64::NAN);
-        self.replay_beside(changed, row..row + 1, |at| margin = at.margin(limit))?;
+        let rows = (row..row + 1, &self.segments[..]);
+        self.replay_beside(changed, rows, |at| margin = at.margin(limit))?;
         Ok(margin)
     }
 
     fn replay_beside(
         &self,
         (parameter, to): (ParameterId, f64),
-        rows: Range<usize>,
+        rows: (Range<usize>, &[f64]),
         visit: impl FnMut(&mut Replay<'_>),
     ) -> Result<(), ChangeError> {
         let network = self.network();

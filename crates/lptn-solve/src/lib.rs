@@ -35,6 +35,7 @@ mod guard;
 mod heat;
 mod hidden;
 mod inside;
+mod insides;
 mod interval;
 mod last;
 mod ledger;

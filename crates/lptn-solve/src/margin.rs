@@ -8,7 +8,7 @@ use lptn_network::{InputError, LimitId, Network, NodeId, ParameterId, Positions}
 
 use crate::replay::Replay;
 use crate::sensitive_run::step;
-use crate::stencil::slope;
+use crate::stencil::{slope, slope_of_size};
 
 /// Step of a temperature in K for the derivative of a result by it.
 pub(crate) const KELVIN: f64 = 0.01;
@@ -92,14 +92,19 @@ impl Margin<'_> {
         replay.margin(self.limit)
     }
 
-    /// The derivative by the temperature of each node; `nodes` are those it may change with.
-    pub(crate) fn by_nodes(&self, point: &Point, nodes: &[NodeId]) -> Result<Vec<f64>, BentMargin> {
+    /// The derivative by the temperature of each node; `nodes` are those it may change with, and
+    /// `typical` is the mean size of the margin: a far smaller bend does not count.
+    pub(crate) fn by_nodes(
+        &self,
+        point: &Point,
+        (nodes, typical): (&[NodeId], f64),
+    ) -> Result<Vec<f64>, BentMargin> {
         let mut replay = Replay::new(self.system);
         let mut temperatures = point.nodes.clone();
         let mut weights = vec![0.0; temperatures.len()];
         for &node in nodes {
             let own = temperatures[node.index()];
-            let found = slope(KELVIN, |change| {
+            let found = slope_of_size((KELVIN, typical), |change| {
                 temperatures[node.index()] = own + change;
                 self.read(&mut replay, point, &temperatures)
             })?;

@@ -19,6 +19,8 @@ use crate::window::Window;
 pub(crate) struct Readings {
     /// Start, breakpoints of inputs and results, stop; ascending.
     ends: Vec<f64>,
+    /// Times in s at which limits may bend or jump.
+    pub(crate) bends: Vec<f64>,
     /// Times at which evaluations of limits restart, in s.
     pub(crate) limits: Vec<f64>,
     /// Times at which evaluations of windows restart, in s.
@@ -30,8 +32,8 @@ pub(crate) struct Readings {
 impl Readings {
     /// For a run whose results no one reads.
     pub(crate) fn none(segment: Segment) -> Self {
-        let [limits, windows, days] = <[Vec<f64>; 3]>::default();
-        Self { ends: vec![segment.from, segment.to], limits, windows, days }
+        let [bends, limits, windows, days] = <[Vec<f64>; 4]>::default();
+        Self { ends: vec![segment.from, segment.to], bends, limits, windows, days }
     }
 
     /// For a run of these segments and rows, with these windows and the days of these columns.
@@ -47,11 +49,12 @@ impl Readings {
         let inner = merged(inner, all.breakpoints(&network.results())?, same_time(start, stop));
         let own = Around { known: &inner, ..all };
         let limits: Vec<Item> = of_moments(network).map(Item::Limit).collect();
+        let bends = own.bends(&limits)?;
         let limits = own.looks(&limits)?;
         let windows = own.looks(&items_of(windows.iter().map(|window| &window.of)))?;
         let days = own.looks(&items_of(days.into_iter()))?;
         let ends = [start].into_iter().chain(inner).chain([stop]).collect();
-        Ok(Self { ends, limits, windows, days })
+        Ok(Self { ends, bends, limits, windows, days })
     }
 
     /// The times between start and stop at which inputs or results may bend or jump, in s.
@@ -141,11 +144,16 @@ impl Around<'_> {
         Ok(times)
     }
 
+    /// The breakpoints of these items, as they are among the known ones.
+    fn bends(&self, items: &[Item]) -> Result<Vec<f64>, InputError> {
+        let own = self.breakpoints(items)?.into_iter();
+        Ok(own.filter_map(|time| nearest(self.known, time)).collect())
+    }
+
     /// The times at which evaluations of these items have to restart: where they may bend or jump,
     /// and in between as their curves require.
     fn looks(&self, items: &[Item]) -> Result<Vec<f64>, InputError> {
-        let own = self.breakpoints(items)?.into_iter();
-        let own: Vec<f64> = own.filter_map(|time| nearest(self.known, time)).collect();
+        let own = self.bends(items)?;
         let curves = if items.is_empty() { Vec::new() } else { self.network.result_curves(items) };
         Ok(if curves.is_empty() {
             own

@@ -186,6 +186,11 @@ impl<'a> Recorder<'a> {
         (self.rows[0], self.rows[self.rows.len() - 1])
     }
 
+    /// The times at which results are read.
+    pub(crate) fn readings(&self) -> &Readings {
+        &self.readings
+    }
+
     pub(crate) fn rows(&self) -> &[f64] {
         &self.rows
     }

@@ -66,7 +66,7 @@ impl SteadyState {
         let (at, nodes) = ((self.time, just_after(self.time)), self.temperatures.clone());
         let point = Point { at, positions, nodes, weight: 1.0 };
         let margin = reads.at(&point)?;
-        let weights = reads.by_nodes(&point, &reads.nodes())?;
+        let weights = reads.by_nodes(&point, (&reads.nodes(), 0.0))?;
         let adjoint = Adjoint::of_sum(system, self, &weights)?;
         let mut by = adjoint.by_parameters(parameters)?;
         if reads.nodes_alone().is_none() {

@@ -7,7 +7,7 @@ use lptn_assembly::ThermalSystem;
 use lptn_integrate::Statistics;
 use lptn_network::{
     BoundaryId, ConductorId, ControlId, HeatOf, Network, NodeId, ParameterId, Positions, Received,
-    ReportId, SignalId, SourceId, Value, same_time,
+    ReportId, SignalId, SourceId, same_time,
 };
 
 use crate::balance::Balance;
@@ -228,14 +228,6 @@ impl Solution {
         self.values(Quantity::Report(id))
     }
 
-    /// An expression of results over the rows in SI units, compiled for this network; NaN if it has
-    /// no value, and unless every node was recorded.
-    pub fn result(&self, value: &Value) -> Vec<f64> {
-        let mut values = Vec::with_capacity(self.times.len());
-        self.replay(|at| values.push(at.result(value)));
-        values
-    }
-
     /// Temperatures and heat flows at a row; `None` unless every node was recorded.
     ///
     /// # Panics
@@ -276,14 +268,16 @@ impl Solution {
 
     /// The same for some of the rows.
     pub(crate) fn replay_rows(&self, rows: Range<usize>, visit: impl FnMut(&mut Replay<'_>)) {
-        self.replay_as((&self.system, &|row, column| self.row(row)[column]), rows, visit);
+        let own = |row: usize, column: usize| self.row(row)[column];
+        self.replay_as((&self.system, &own), (rows, &self.segments), visit);
     }
 
-    /// The same with another system, and temperatures by row and place among the recorded nodes.
+    /// The same with another system, temperatures by row and place among the recorded nodes, and for
+    /// each row a time inside its stretch.
     pub(crate) fn replay_as(
         &self,
         (system, temperature): (&ThermalSystem, &dyn Fn(usize, usize) -> f64),
-        rows: Range<usize>,
+        (rows, insides): (Range<usize>, &[f64]),
         mut visit: impl FnMut(&mut Replay<'_>),
     ) {
         let mut at = Replay::new(system);
@@ -296,7 +290,7 @@ impl Solution {
             }
             let places = self.recorded.iter().enumerate();
             places.for_each(|(column, id)| nodes[id.index()] = temperature(row, column));
-            at.go_to((self.times[row], self.segments[row]), &nodes);
+            at.go_to((self.times[row], insides[row]), &nodes);
             visit(&mut at);
         }
     }

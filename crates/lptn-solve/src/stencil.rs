@@ -20,13 +20,21 @@ const ROUNDING: f64 = 1e-12;
 ///
 /// # Errors
 /// The error of `of`, if it has no values on either side.
-pub(crate) fn slope<E>(
-    step: f64,
+pub(crate) fn slope<E>(step: f64, of: impl FnMut(f64) -> Result<f64, E>) -> Result<Option<f64>, E> {
+    slope_of_size((step, 0.0), of)
+}
+
+/// The same for a function of this typical size: if it is far smaller here it may bend.
+///
+/// # Errors
+/// As [`slope`].
+pub(crate) fn slope_of_size<E>(
+    (step, typical): (f64, f64),
     mut of: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<Option<f64>, E> {
     let mut last = None;
     for stencil in &STENCILS {
-        match by(stencil, step, &mut of) {
+        match by(stencil, (step, typical), &mut of) {
             Err(error) => last = Some(error),
             found => return found,
         }
@@ -42,19 +50,19 @@ pub(crate) fn slope_below<E>(
     step: f64,
     mut of: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<Option<f64>, E> {
-    by(&STENCILS[2], step, &mut of)
+    by(&STENCILS[2], (step, 0.0), &mut of)
 }
 
 fn by<E>(
     stencil: &[(f64, f64); 5],
-    step: f64,
+    (step, typical): (f64, f64),
     of: &mut impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<Option<f64>, E> {
     let values: Result<Vec<f64>, E> = stencil.iter().map(|(place, _)| of(place * step)).collect();
-    Ok(smooth(stencil, &values?, step))
+    Ok(smooth(stencil, &values?, (step, typical)))
 }
 
-fn smooth(stencil: &[(f64, f64); 5], values: &[f64], step: f64) -> Option<f64> {
+fn smooth(stencil: &[(f64, f64); 5], values: &[f64], (step, typical): (f64, f64)) -> Option<f64> {
     // the weights add up to 0; so a constant has a slope of exactly 0
     let rises = values.iter().map(|value| value - values[0]);
     let sum: f64 = stencil.iter().zip(rises).map(|((_, weight), rise)| weight * rise).sum();
@@ -64,7 +72,7 @@ fn smooth(stencil: &[(f64, f64); 5], values: &[f64], step: f64) -> Option<f64> {
     let fourth: f64 = along.iter().zip(FOURTH).map(|((_, value), weight)| weight * value).sum();
     let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let size = most.abs().max(least.abs());
+    let size = most.abs().max(least.abs()).max(typical);
     let smooth = fourth.abs() <= SMOOTH * (most - least) + ROUNDING * size;
     let slope = sum / (12.0 * step);
     (smooth && slope.is_finite()).then_some(slope)

@@ -341,7 +341,7 @@ impl<'a> Run<'a> {
         self.begin_to_guard();
         self.bends = true;
         self.recorder.enter(segment, self.switching.as_ref().map(|switching| &switching.positions));
-        self.remember_segment(segment);
+        self.remember_stretch(self.integrator.time());
         if self.method == Method::OneStep {
             self.integrator.system_mut().draw_line((segment.from, segment.to));
             self.recorder.draw_line();

@@ -30,7 +30,9 @@ fn gradients(text: &str, margins: bool) -> Result<Gradients, GradientError> {
     let cases = Cases::new(study.plan(&netlist.network).unwrap());
     let task = SweepTask::new(netlist, study, cases).unwrap();
     let limits: Vec<_> = task.network().limit_ids().filter(|_| margins).collect();
-    task.gradients(&[POWER, CONDUCTANCE], &limits, &|_| Proceed::Continue)
+    task.gradients(&[POWER, CONDUCTANCE], (task.study().reports.len(), &limits), &|_| {
+        Proceed::Continue
+    })
 }
 
 #[track_caller]
@@ -123,6 +125,78 @@ fn an_integral_over_a_fixed_jump_is_exact() {
     let found = gradients(&text("run", "E = \"integral(heat.P)\"", source), false).unwrap();
     near(&found.values, &[300.0 * POWER]);
     near(&found.slopes[0], &[300.0, 0.0]);
+}
+
+/// Rise of the block over the air in K after a time in s, and its derivatives by P and G.
+fn rise(time: f64) -> [f64; 3] {
+    let x = (-CONDUCTANCE * time / CAPACITY).exp();
+    let own = POWER / CONDUCTANCE * (1.0 - x);
+    [own, own / POWER, -own / CONDUCTANCE + POWER / CONDUCTANCE * x * time / CAPACITY]
+}
+
+/// A quantity that compares the time, or reads a signal that drives nothing, jumps and bends at
+/// times of its own. With k = G/C, the integral of the rise until t is P/G (t - (1 - exp(-k t))/k).
+#[test]
+fn a_quantity_has_jumps_and_bends_of_its_own() {
+    let duty = "duty = { t = [\"0 s\", \"300 s\"], v = [1, 0], interp = \"previous\", after_end = \"hold\" }\n";
+    let pulse = "pulse = { t = [\"0 s\", \"499.95 s\", \"500 s\", \"500.05 s\", \"1000 s\"], v = [0, 0, \
+                 1, 0, 0] }\n";
+    let more = format!("{CONSTANT}[signal]\n{duty}{pulse}");
+    let reports = "half = \"integral(if(t < 300 [s], block.T - air.T, 0 [K]))\", \
+                   driven = \"integral(duty * (block.T - air.T))\", \
+                   switched = \"integral(if(duty > 0.5, block.T - air.T, 0 [K]))\", \
+                   short = \"integral(pulse * cooling.Q)\", \
+                   end = \"last(if(t > 900 [s], 1, 2) * (block.T - air.T))\", \
+                   top = \"max(if(t < 200 [s], 1, 0.1) * (block.T - air.T))\"";
+    let found = gradients(&text("run", reports, &more), true).unwrap();
+    let (p, g, c) = (POWER, CONDUCTANCE, CAPACITY);
+    let (k, t) = (g / c, 300.0);
+    let x = (-k * t).exp();
+    let half = p / g * (t - (1.0 - x) / k);
+    let half = [half, half / p, -half / g + p / g * ((1.0 - x) / (k * g) - t * x / g)];
+    // a triangle of half width h times exp(-k t) has the integral h (1 + (k h)^2 / 12) exp(-k 500)
+    let (h, x) = (0.05, (-k * 500.0).exp());
+    let w = h * (1.0 + (k * h).powi(2) / 12.0);
+    let short = p * h - p * x * w;
+    let short = [short, short / p, p * x * (500.0 * w - h.powi(3) * k / 6.0) / c];
+    let expected = [half, half, half, short, rise(STOP), rise(200.0)];
+    for (place, [value, by_p, by_g]) in expected.into_iter().enumerate() {
+        near(&found.values[place..=place], &[value]);
+        near(&found.slopes[place], &[by_p, by_g]);
+    }
+}
+
+/// The same without capacities: a resistance carries the power, which rises with time.
+#[test]
+fn a_network_without_capacities_has_jumps_of_its_results_too() {
+    let text = text("run", "half = \"integral(if(t < 300 [s], block.T - air.T, 0 [K]))\"", "")
+        .replace("C = \"500 J/K\", T0 = \"25 degC\"", "massless = true")
+        + "[source]\nheat = { into = \"block\", P = \"P * t / 1000 [s]\" }\n";
+    let found = gradients(&text, false).unwrap();
+    let half = POWER / CONDUCTANCE * 300.0 * 300.0 / 2000.0;
+    near(&found.values, &[half]);
+    near(&found.slopes[0], &[half / POWER, -half / CONDUCTANCE]);
+}
+
+#[test]
+fn a_comparison_that_temperatures_or_parameters_move_is_refused() {
+    let code = |report: &str| {
+        let error = gradients(&text("run", report, CONSTANT), false).unwrap_err();
+        lptn_units::Problem::code(&error)
+    };
+    for functional in ["mean", "integral", "max", "min"] {
+        for quantity in [
+            "if(block.T > 35 [degC], 1, 0)",
+            "if(cooling.Q > 10 [W], 1, 0)",
+            "if(t < P * 1 [s/W], block.T - air.T, 0 [K])",
+        ] {
+            let report = format!("r = \"{functional}({quantity})\"");
+            assert_eq!(code(&report), "gradient::moving_jump", "{report}");
+        }
+    }
+    let report = "r = \"last(if(block.T > 35 [degC], 2, 1) * (block.T - air.T))\"";
+    let found = gradients(&text("run", report, CONSTANT), false).unwrap();
+    near(&found.slopes[0], &rise(STOP).map(|x| 2.0 * x)[1..]);
 }
 
 #[test]

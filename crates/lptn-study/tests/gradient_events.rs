@@ -114,7 +114,9 @@ fn gradients(text: &str, axes: &[&str], reports: &str) -> Result<Gradients, Grad
     let study = netlist.studies.sweeps[0].clone();
     let cases = Cases::new(study.plan(&netlist.network).unwrap());
     let own: Vec<f64> = cases.parameters().map(|id| netlist.network.parameter_value(id)).collect();
-    SweepTask::new(netlist, study, cases).unwrap().gradients(&own, &[], &|_| Proceed::Continue)
+    SweepTask::new(netlist, study, cases)
+        .unwrap()
+        .gradients(&own, (usize::MAX, &[]), &|_| Proceed::Continue)
 }
 
 /// Sums over many switches: to 1e-8 of themselves, or of 1 in SI units.

@@ -10,6 +10,7 @@
 mod common;
 mod gradient;
 mod gradient_events;
+mod gradient_values;
 mod rank;
 mod size;
 mod size_choices;

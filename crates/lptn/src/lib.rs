@@ -69,13 +69,13 @@ pub use lptn_answer::{
     run::{NoSteady, RunAnswer, RunQuestion, RunTask},
     size::{CoolingAnswer, CoolingQuestion, SizeAnswer, SizeQuestion},
     steady::{SteadyAnswer, SteadyQuestion},
-    sweep::{KeptRows, RowForm, Rows as SweepRows, Shard, SweepAnswer, SweepAsked, SweepQuestion},
+    sweep::{Shard, SweepAnswer, SweepAsked, SweepQuestion},
     verify::{VerifyAnswer, VerifyQuestion},
 };
 /// Pages in their formats.
 pub use lptn_report::{
-    Cells, CsvLines, Format, Look, Page, Picture, Report, RowColumn, Rows, Text, TimeUnit,
-    report_of, write, write_csv,
+    Cells, Format, Look, Page, Picture, Report, RowColumn, Rows, Text, TimeUnit, report_of, write,
+    write_csv,
 };
 
 /// Numbers without pages, and simulations that are stepped.

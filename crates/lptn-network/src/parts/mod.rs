@@ -37,6 +37,7 @@ pub(crate) mod state;
 pub(crate) mod state_capacity;
 pub(crate) mod substance;
 pub(crate) mod switch;
+pub(crate) mod watched;
 pub(crate) mod whole;
 
 use std::borrow::Cow;

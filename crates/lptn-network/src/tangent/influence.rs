@@ -67,16 +67,33 @@ impl<'a> Influence<'a> {
     /// the parameters. Comparisons of temperatures are events, not jumps.
     pub(super) fn moving_jump(&self) -> Option<Item> {
         let parts = &self.network.parts;
-        let moves = |comparison: &Program| {
-            let slots = comparison.slots();
-            slots.iter().any(|&s| self.slots[s as usize])
-                && slots.iter().any(|&s| self.varies(s))
-                && !parts.is_switch(comparison)
-        };
+        let moves = |c: &Program| self.moves(c) && !parts.is_switch(c);
         let jumps = |value: &Value| {
             value.programs().into_iter().flat_map(|program| program.comparisons()).any(moves)
         };
         self.network.inputs().find(|(_, _, value)| jumps(value)).map(|(item, _, _)| item)
+    }
+
+    /// True if a comparison of a result changes its truth at a time which depends on temperatures or
+    /// on one of the parameters. No event marks that time.
+    pub(super) fn moves_jump_of(&self, item: Item) -> bool {
+        let parts = &self.network.parts;
+        let moves = |comparison: &Program| {
+            let value = Value::Expression(comparison.clone().into());
+            self.moves(comparison)
+                || self.network.reads_results(&value)
+                || parts.is_switch(comparison)
+        };
+        let values = parts.results(&[item]).values;
+        let mut programs = values.into_iter().flat_map(Value::programs);
+        programs.any(|program| program.comparisons().iter().any(moves))
+    }
+
+    /// True if the time at which a comparison changes its truth depends on one of the parameters.
+    fn moves(&self, comparison: &Program) -> bool {
+        let slots = comparison.slots();
+        slots.iter().any(|&slot| self.slots[slot as usize])
+            && slots.iter().any(|&slot| self.varies(slot))
     }
 
     /// True if a slot changes during a run.

@@ -15,6 +15,7 @@ mod reads;
 mod refusal;
 
 use std::collections::BTreeMap;
+use std::collections::hash_map::Entry;
 use std::ops::Range;
 
 use foldhash::{HashMap, HashMapExt as _};
@@ -23,7 +24,7 @@ use lptn_units::Scalar;
 use crate::End;
 use crate::evaluation::Slope;
 use crate::id::{
-    BoundaryId, ConductorId, ControlId, NodeId, ParameterId, SignalId, SourceId, SwitchId,
+    BoundaryId, ConductorId, ControlId, Item, NodeId, ParameterId, SignalId, SourceId, SwitchId,
 };
 use crate::law::{At, ConductorFlow, Received};
 use crate::network::Network;
@@ -162,6 +163,14 @@ impl Network {
         influence.program(&self.switches()[id.index()].difference)
     }
 
+    /// True if a limit or report jumps at a time which no event marks and which depends on
+    /// temperatures or on these parameters: its integral and extremes change with that time.
+    pub fn result_jump_moves(&self, item: Item, parameters: &[ParameterId]) -> bool {
+        let variables: Vec<Variable> =
+            parameters.iter().copied().map(Variable::Parameter).collect();
+        Influence::new(self, &variables).moves_jump_of(item)
+    }
+
     /// The same at one moment, and by signals too. Controls and comparisons keep the positions of the
     /// evaluation. No variable may occur twice.
     ///
@@ -197,10 +206,10 @@ impl Network {
         }
         let (mut shared, mut slopes) = (HashMap::new(), Vec::new());
         for path in passes.iter_mut().flat_map(|pass| &mut pass.reads.conductors) {
-            if !shared.contains_key(&path.id) {
-                path.seeds = Seeds::of(self, (path.id, &path.lanes));
-                let range = path.seeds.as_mut().map(|seeds| seeds.enter(&mut slopes));
-                range.into_iter().for_each(|range| drop(shared.insert(path.id, range)));
+            let Entry::Vacant(place) = shared.entry(path.id) else { continue };
+            path.seeds = Seeds::of(self, (path.id, &path.lanes));
+            if let Some(seeds) = &mut path.seeds {
+                place.insert(seeds.enter(&mut slopes));
             }
         }
         Ok(Tangents { variables: variables.to_vec(), passes, kept: Vec::new(), shared, slopes })

@@ -58,7 +58,8 @@ class Function:
             text += f"[run]\nstop = {json.dumps(stop)}\n"
         try:
             netlist = _lptn.Netlist.parse(f"{source}\n{text}", name, network._set)
-            self._of = _lptn.Gradient(netlist, "lptn_gradient", list(margins.values()), times)
+            study = ("lptn_gradient", len(reports))
+            self._of = _lptn.Gradient(netlist, study, list(margins.values()), times)
         except Error as error:
             _rename(error, list(reports.values()), source.count("\n") + 1)
             raise
@@ -151,7 +152,7 @@ def _study(network: Network, by: list[str], reports: dict[str, str], over: str) 
     lines = ["[sweep.lptn_gradient]", 'method = "list"', f"over = {json.dumps(over)}"]
     lines += ["[sweep.lptn_gradient.axes]", *axes, "[sweep.lptn_gradient.report]"]
     named = [f"lptn_result_{place} = {json.dumps(text)}" for place, text in enumerate(reports.values())]
-    # a study has at least one report
+    # a study has at least one report; this one is not evaluated
     return "\n".join([*lines, *(named or ["lptn_result = 0"])]) + "\n"
 
 

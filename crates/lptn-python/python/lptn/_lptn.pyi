@@ -69,7 +69,7 @@ class Gradient:
     def __init__(
         self,
         netlist: Netlist,
-        study: str,
+        study: tuple[str, int],
         margins: Sequence[str],
         over: tuple[str | None, str | None],
     ) -> None: ...

@@ -21,52 +21,71 @@ pub(super) struct Integral {
     pub(super) value: f64,
     /// The points at which it was read, with their weights in s.
     pub(super) points: Vec<Point>,
-    /// Integral of the absolute value.
+    /// Integral of the absolute value over the run.
+    pub(super) size: f64,
+}
+
+/// A part of a stretch, with its integral by two rules and that of the absolute value.
+struct Part {
+    stretch: usize,
+    ends: [f64; 2],
+    fine: f64,
+    rough: f64,
     size: f64,
+    points: Vec<Point>,
+}
+
+impl Part {
+    fn of(way: &mut Way<'_>, stretch: usize, ends: [f64; 2]) -> Result<Self, BackwardError> {
+        let [from, to] = ends;
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let points = Vec::with_capacity(GAUSS.len());
+        let mut part = Self { stretch, ends, fine: 0.0, rough: 0.0, size: 0.0, points };
+        for [place, weight, other] in GAUSS {
+            let (point, margin) = way.read(stretch, middle + half * place)?;
+            part.fine += half * weight * margin;
+            part.rough += half * other * margin;
+            part.size += half * weight * margin.abs();
+            part.points.push(Point { weight: half * weight, ..point });
+        }
+        Ok(part)
+    }
 }
 
 impl Integral {
     /// Over all stretches.
     pub(super) fn of(way: &mut Way<'_>) -> Result<Self, BackwardError> {
-        let mut integral = Self::default();
         let stretches = &way.asked.trajectory.stretches;
         let length = way.asked.length();
+        let mut parts = Vec::new();
         for (number, stretch) in stretches.iter().enumerate() {
             let (from, to) = stretch.span();
-            let parts = (PARTS * (to - from) / length).ceil().max(1.0);
-            for k in (0..).map(f64::from).take_while(|k| *k < parts) {
-                let ends = [k, k + 1.0].map(|k| from + (to - from) * k / parts);
-                integral.add(way, number, (ends, HALVINGS))?;
+            let count = (PARTS * (to - from) / length).ceil().max(1.0);
+            for k in (0..).map(f64::from).take_while(|k| *k < count) {
+                let ends = [k, k + 1.0].map(|k| from + (to - from) * k / count);
+                parts.push(Part::of(way, number, ends)?);
             }
         }
+        let size = parts.iter().map(|part| part.size).sum();
+        let mut integral = Self { size, ..Self::default() };
+        parts.into_iter().try_for_each(|part| integral.add(way, part, HALVINGS))?;
         Ok(integral)
     }
 
     /// Adds a part, halved until the two rules agree.
-    fn add(
-        &mut self,
-        way: &mut Way<'_>,
-        stretch: usize,
-        ([from, to], halvings): ([f64; 2], usize),
-    ) -> Result<(), BackwardError> {
-        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let (mut fine, mut rough, mut size) = (0.0, 0.0, 0.0);
-        let mut points = Vec::with_capacity(GAUSS.len());
-        for [place, weight, other] in GAUSS {
-            let (point, margin) = way.read(stretch, middle + half * place)?;
-            fine += half * weight * margin;
-            rough += half * other * margin;
-            size += half * weight * margin.abs();
-            points.push(Point { weight: half * weight, ..point });
-        }
-        if (fine - rough).abs() <= RESOLVED * (self.size + size) {
-            self.value += fine;
-            self.size += size;
-            self.points.extend(points);
+    fn add(&mut self, way: &mut Way<'_>, part: Part, halvings: usize) -> Result<(), BackwardError> {
+        if (part.fine - part.rough).abs() <= RESOLVED * self.size {
+            self.value += part.fine;
+            self.points.extend(part.points);
             return Ok(());
         }
         let Some(left) = halvings.checked_sub(1) else { return Err(way.asked.unresolved()) };
-        self.add(way, stretch, ([from, middle], left))?;
-        self.add(way, stretch, ([middle, to], left))
+        let [from, to] = part.ends;
+        let middle = 0.5 * (from + to);
+        for ends in [[from, middle], [middle, to]] {
+            let half = Part::of(way, part.stretch, ends)?;
+            self.add(way, half, left)?;
+        }
+        Ok(())
     }
 }

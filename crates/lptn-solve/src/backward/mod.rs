@@ -166,6 +166,7 @@ impl Asked<'_> {
     fn integrated(&self, functional: Functional) -> Result<MarginSlopes, BackwardError> {
         let mut way = Way::new(self, None)?;
         let integral = Integral::of(&mut way)?;
+        way.integrator.system_mut().typical = integral.size / self.length();
         let mut by = way.back()?;
         if self.margin.nodes_alone().is_none() {
             for (by, &parameter) in by.iter_mut().zip(self.parameters) {

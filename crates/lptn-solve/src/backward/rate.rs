@@ -14,8 +14,14 @@ const KELVIN: f64 = 0.01;
 /// The parts of a stretch or of a step of the run in such a step.
 const PARTS: f64 = 8.0;
 
+/// Steps below a time from which its derivative is read.
+const BELOW: f64 = 4.0;
+
 /// Steps of the run to both sides in which an extremum is looked for.
 const REACH: [f64; 3] = [1.0, 4.0, 16.0];
+
+/// Margins that differ by less than this part of them are the same.
+const ROUNDING: f64 = 1e-9;
 
 /// A number along a run.
 #[derive(Clone, Copy)]
@@ -25,7 +31,8 @@ pub(super) enum Read {
 }
 
 impl Asked<'_> {
-    /// The rate in 1/s along a stretch at a time in s, from the temperatures just before.
+    /// The rate in 1/s along a stretch at a time in s, from the temperatures just before, at its start
+    /// from those after.
     pub(super) fn rate(
         &self,
         moment: &mut Moment<'_>,
@@ -39,6 +46,8 @@ impl Asked<'_> {
         let fastest = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
         let longest = (to - from).min(known.step(time)) / PARTS;
         let by = if fastest > 0.0 { longest.min(KELVIN / fastest) } else { longest };
+        // before the start there is nothing to read
+        let by = if time - BELOW * by < from { -by } else { by };
         let found = slope_below(by, |change| {
             let moved: Vec<f64> =
                 state.iter().zip(&rates).map(|(y, rate)| y + rate * change).collect();
@@ -57,12 +66,9 @@ impl Asked<'_> {
 
     /// The moment near another one at which the margin is level. A value is flat around its extremum,
     /// so that the run knows the moment only to the root of its tolerance; the rate crosses zero.
-    /// The same moment if the margin is least at an end.
-    pub(super) fn level(
-        &self,
-        moment: &mut Moment<'_>,
-        Aim { stretch, time }: Aim,
-    ) -> Result<Aim, BackwardError> {
+    /// The same moment if the margin is least at an end or in a bend.
+    pub(super) fn level(&self, moment: &mut Moment<'_>, aim: Aim) -> Result<Aim, BackwardError> {
+        let Aim { stretch, time } = aim;
         let (from, to) = self.trajectory.stretches[stretch].span();
         let step = self.trajectory.stretches[stretch].step(time);
         let mut rate = |time| self.rate(moment, (stretch, time), Read::Margin);
@@ -76,9 +82,20 @@ impl Asked<'_> {
                     level = next;
                     bracket.put(next, rate(next)?);
                 }
-                return Ok(Aim { stretch, time: level });
+                let level = Aim { stretch, time: level };
+                return Ok(if self.rises(moment, [aim, level])? { aim } else { level });
             }
         }
-        Ok(Aim { stretch, time })
+        Ok(aim)
+    }
+
+    /// True if the margin is larger at the second moment by more than the error of the run.
+    fn rises(&self, moment: &mut Moment<'_>, aims: [Aim; 2]) -> Result<bool, BackwardError> {
+        let mut margins = [0.0; 2];
+        for (margin, aim) in margins.iter_mut().zip(aims) {
+            *margin = self.margin.at(&self.point(moment, (aim.stretch, aim.time))?)?;
+        }
+        let [before, after] = margins;
+        Ok(after > before + ROUNDING * before.abs().max(self.solution.tolerance))
     }
 }

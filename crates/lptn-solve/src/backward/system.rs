@@ -19,6 +19,8 @@ pub(super) struct Adjoint<'a> {
     stretch: &'a Stretch,
     /// The margin that is integrated and the nodes that it reads; `None` for a result of one moment.
     integrated: Option<(Margin<'a>, Vec<NodeId>)>,
+    /// Mean of the absolute value of an integrated margin.
+    pub(super) typical: f64,
     pub(super) scale: f64,
     parameters: usize,
     /// True for constant coefficients and weights, without running integrals.
@@ -51,6 +53,7 @@ impl<'a> Adjoint<'a> {
             moment,
             stretch,
             integrated: integrated.map(|margin| (margin, margin.nodes())),
+            typical: 0.0,
             scale: 1.0,
             parameters,
             constant,
@@ -93,7 +96,7 @@ impl<'a> Adjoint<'a> {
         }
         if let Some((margin, nodes)) = &self.integrated {
             let point = self.point(time);
-            self.weights = margin.by_nodes(&point, nodes)?;
+            self.weights = margin.by_nodes(&point, (nodes, self.typical))?;
             self.weights.iter_mut().for_each(|weight| *weight *= self.scale);
             self.handed = self.moment.handed(&self.weights);
         }

@@ -125,7 +125,7 @@ impl<'a> Way<'a> {
     fn arrive(&mut self, stretch: usize, time: f64) -> Result<(), BackwardError> {
         let (margin, parameters) = (self.asked.margin, self.asked.parameters);
         let (point, _) = self.read(stretch, time)?;
-        let weights = margin.by_nodes(&point, &margin.nodes())?;
+        let weights = margin.by_nodes(&point, (&margin.nodes(), 0.0))?;
         let instant = self.moment().instant(&weights)?;
         add(&mut self.adjoint, 1.0, &instant.states);
         add(&mut self.found, 1.0, &instant.parameters);
@@ -145,7 +145,7 @@ impl<'a> Way<'a> {
             return Ok(());
         }
         self.integrator.system_mut().enter(&self.asked.trajectory.stretches[stretch]);
-        let scale = if is_zero { self.first_scale(to)? } else { self.scale() };
+        let scale = if is_zero { self.first_scale((from, to))? } else { self.scale() };
         self.restart(scale)?;
         self.integrator.set_stop(-from);
         while self.integrator.time() < -from {
@@ -198,13 +198,17 @@ impl<'a> Way<'a> {
         1.0 / largest(&self.adjoint)
     }
 
-    /// The same after a small part of the run, if it is zero now.
-    fn first_scale(&mut self, time: f64) -> Result<f64, BackwardError> {
-        let length = self.asked.length();
+    /// The same after a small part of the run, if it is zero now: by the largest rate at the ends and
+    /// in the middle of the stretch.
+    fn first_scale(&mut self, (from, to): (f64, f64)) -> Result<f64, BackwardError> {
+        let part = (FIRST * self.asked.length()).min(to - from);
         let adjoint = self.integrator.system_mut();
         adjoint.rescale(1.0);
-        let rate = adjoint.rate(time)?;
-        Ok(if rate > 0.0 { 1.0 / (FIRST * length * rate) } else { 1.0 })
+        let mut rate = 0.0_f64;
+        for time in [to, 0.5 * (from + to), from] {
+            rate = rate.max(adjoint.rate(time)?);
+        }
+        Ok(if rate > 0.0 { 1.0 / (part * rate) } else { 1.0 })
     }
 
     fn restart(&mut self, scale: f64) -> Result<(), BackwardError> {

@@ -3,7 +3,7 @@
 use lptn_network::Positions;
 
 use super::{Break, Run};
-use crate::times::Segment;
+use crate::readings::pieces;
 use crate::trajectory::Trajectory;
 
 /// Positions before a switch, and the control whose dwell ends there.
@@ -13,16 +13,30 @@ pub(super) struct Before {
 }
 
 impl Run<'_> {
-    /// Begins a stretch of the trajectory.
-    pub(super) fn remember_segment(&mut self, segment: Segment) {
+    /// Begins a stretch of the trajectory at a time in s.
+    pub(super) fn remember_stretch(&mut self, time: f64) {
         let positions = self.switching.as_ref().map(|switching| &switching.positions);
+        let inside = self.recorder.readings().inside(time);
         if let Some(trajectory) = &mut self.trajectory {
-            trajectory.enter(segment.inside(), positions);
+            trajectory.enter(inside, positions);
         }
     }
 
-    /// Keeps a step or a part of it.
+    /// Keeps a step or a part of it: a stretch ends if a limit bends or jumps.
     pub(super) fn remember_step(&mut self, from: f64, to: f64) -> Result<(), Break> {
+        if self.trajectory.is_none() {
+            return Ok(());
+        }
+        for (part, begins) in pieces(&self.recorder.readings().bends, (from, to)) {
+            if begins {
+                self.remember_stretch(part.0);
+            }
+            self.remember_part(part)?;
+        }
+        Ok(())
+    }
+
+    fn remember_part(&mut self, (from, to): (f64, f64)) -> Result<(), Break> {
         let Some(trajectory) = &mut self.trajectory else { return Ok(()) };
         if let Some(series) = self.integrator.series() {
             trajectory.add_series((from, to), &series);

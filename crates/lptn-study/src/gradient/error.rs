@@ -39,6 +39,13 @@ pub enum GradientError {
         format!("`{name}` jumps at {time} s, and parameters move that time: its integral has no \
                  exact gradient"),
         help "take the mean of a temperature instead";
+    /// A comparison in a quantity changes at a time that depends on temperatures or parameters.
+    MovingJump { name: String } = "gradient::moving_jump",
+        format!(
+            "`{name}` compares temperatures or parameters of the gradient: it may jump at a time \
+             that they move, and then it has no exact gradient"
+        ),
+        help "leave out the comparison, or use a method without derivatives";
     /// The quantity changes faster than its integral resolves.
     Unresolved { name: String } = "gradient::unresolved",
         format!("`{name}` changes too fast for its integral to have an exact gradient"),

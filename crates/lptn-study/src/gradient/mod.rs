@@ -18,7 +18,9 @@ pub use followed::Gradients;
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Measure, SweepOver};
-use lptn_network::{Bound, Functional, Limit, LimitId, LimitSeverity, Network, ParameterId, Value};
+use lptn_network::{
+    Bound, Functional, Item, Limit, LimitId, LimitSeverity, Network, ParameterId, Value,
+};
 use lptn_solve::{Proceed, Progress};
 
 use crate::gradient::followed::Followed;
@@ -26,7 +28,7 @@ use crate::gradient::over_run::OverRun;
 use crate::sweep::SweepTask;
 
 impl SweepTask {
-    /// The reports of the study and the margins of these limits, with their derivatives by the
+    /// The first `reports` of the study and the margins of these limits, with their derivatives by the
     /// parameters of the study at these values, all in SI units.
     ///
     /// # Errors
@@ -34,7 +36,7 @@ impl SweepTask {
     pub fn gradients(
         &self,
         values: &[f64],
-        margins: &[LimitId],
+        (reports, margins): (usize, &[LimitId]),
         observer: &dyn Fn(Progress) -> Proceed,
     ) -> Result<Gradients, GradientError> {
         let mut parameters = self.network().given();
@@ -42,7 +44,7 @@ impl SweepTask {
         ids.iter().zip(values).for_each(|(id, &value)| parameters.set(*id, value));
         let network = self.network().with(&parameters)?;
         let own = network.limits().len();
-        let network = network.requiring(self.study().reports.iter().map(limit));
+        let network = network.requiring(self.study().reports.iter().take(reports).map(limit));
         let followed = self.followed(&network, (own, margins))?;
         let system = ThermalSystem::assemble(&network).map_err(lptn_assembly::ChangeError::from)?;
         match self.study().over {
@@ -52,6 +54,13 @@ impl SweepTask {
                 let run = self.netlist().run.as_ref().ok_or(GradientError::NoRun)?;
                 if self.netlist().run_values().any(|value| network.depends_on(value, &ids)) {
                     return Err(GradientError::Times);
+                }
+                let mut moving = followed.iter().filter(|one| {
+                    one.functional != Functional::Last
+                        && network.result_jump_moves(Item::Limit(one.limit), &ids)
+                });
+                if let Some(one) = moving.next() {
+                    return Err(GradientError::MovingJump { name: one.name.clone() });
                 }
                 // without states there is nothing to go back through
                 if system.states().is_empty() {

@@ -2,7 +2,7 @@
 
 use lptn_analysis::{RunAnalysis, Trusted};
 use lptn_assembly::ThermalSystem;
-use lptn_network::{Functional, LimitId, ParameterId, RunSettings};
+use lptn_network::{Functional, InputError, Item, LimitId, Network, ParameterId, RunSettings};
 use lptn_solve::{
     EventKind, Gradient, Proceed, Progress, RecordedNodes, SensitiveRun, on_both_sides, own_side,
 };
@@ -67,7 +67,7 @@ impl<'a> OverRun<'a> {
         let is_limit = |kind: &EventKind| matches!(kind, EventKind::Limit(_));
         let events = seen.events().iter().filter(|event| !is_limit(&event.kind));
         let events: Vec<f64> = events.map(|event| event.time).collect();
-        let breakpoints = network.breakpoints(ends.0, ends.1)?;
+        let breakpoints = breakpoints(network, followed, ends)?;
         let mut parts = Vec::new();
         if followed.iter().any(Followed::is_integrated) {
             parts = ends_of_parts(&run.rows()?, [&events, &breakpoints], ends);
@@ -173,10 +173,23 @@ impl<'a> OverRun<'a> {
             let mut changed = network.given();
             changed.set(id, own + 1e-3 * if own == 0.0 { 1.0 } else { own });
             let other = network.with(&changed).ok();
-            let times = other.and_then(|other| other.breakpoints(self.ends.0, self.ends.1).ok());
+            let times = other.and_then(|other| breakpoints(&other, self.followed, self.ends).ok());
             times.is_none_or(|times| times != self.breakpoints)
         })
     }
+}
+
+/// The times at which inputs or the quantities bend or jump.
+fn breakpoints(
+    network: &Network,
+    followed: &[Followed],
+    ends: (f64, f64),
+) -> Result<Vec<f64>, InputError> {
+    let limits: Vec<Item> = followed.iter().map(|one| Item::Limit(one.limit)).collect();
+    let mut times = network.breakpoints(ends.0, ends.1)?;
+    times.extend(network.result_breakpoints(&limits, ends)?);
+    times.sort_by(f64::total_cmp);
+    Ok(times)
 }
 
 /// Weights of the rule through the outer points and the middle one of [`GAUSS`], exact to degree 3.
