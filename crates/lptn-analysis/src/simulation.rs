@@ -156,6 +156,7 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::set`].
     pub fn release(&mut self, name: &str) -> Result<(), SimulationError> {
+        self.input(name)?;
         let (mut parameters, mut signals) = (self.parameters.clone(), self.signals.clone());
         parameters.remove(name);
         signals.remove(name);

@@ -13,6 +13,9 @@ use crate::watching::Hearing;
 /// Values, and for each its derivatives.
 type Found = (Vec<f64>, Vec<Vec<f64>>);
 
+/// For each quantity its values over time, and for each parameter its derivatives over time.
+type Series = Vec<(Vec<f64>, Vec<Vec<f64>>)>;
+
 /// The results of a study as functions of its parameters.
 #[pyclass(frozen, module = "lptn._lptn")]
 pub(crate) struct Gradient {
@@ -80,14 +83,7 @@ impl Gradient {
 
     /// The values and their derivatives for these values of the parameters, all in their units.
     fn at(&self, py: Python<'_>, values: Vec<f64>) -> PyResult<Found> {
-        if values.len() != self.parameters.len() {
-            let (needed, given) = (self.parameters.len(), values.len());
-            let message = format!("the gradient has {needed} parameters, and got {given} values");
-            return Err(Trouble::of_value(message).into());
-        }
-        let units = values.iter().zip(&self.parameters);
-        let values: Vec<f64> =
-            units.map(|(value, unit)| (value + unit.offset) * unit.scale).collect();
+        let values = self.si(&values)?;
         let hearing = Hearing::default();
         let work = || {
             let observer = |progress| hearing.progress(progress);
@@ -98,9 +94,40 @@ impl Gradient {
         let found = hearing.watch(py, work).map_err(|trouble| raised_by(py, trouble, &hearing))?;
         Ok(self.shown(&found))
     }
+
+    /// The quantities of the reports and their derivatives at these times in s, ascending.
+    fn series(&self, py: Python<'_>, values: Vec<f64>, times: Vec<f64>) -> PyResult<Series> {
+        let values = self.si(&values)?;
+        let hearing = Hearing::default();
+        let work = || {
+            let observer = |progress| hearing.progress(progress);
+            let asked = (self.reports, &times[..]);
+            let found = self.asked.task().gradient_series(&values, asked, &observer);
+            found.map_err(|error| lptn::Failure::of(&error).into())
+        };
+        let found = hearing.watch(py, work).map_err(|trouble| raised_by(py, trouble, &hearing))?;
+        let shown = found.into_iter().zip(&self.results).map(|(one, of)| {
+            let slopes = one.slopes.into_iter().zip(&self.parameters).map(|(slopes, by)| {
+                slopes.into_iter().map(|slope| slope * by.scale / of.scale).collect()
+            });
+            (one.values.into_iter().map(|value| of.from_si(value)).collect(), slopes.collect())
+        });
+        Ok(shown.collect())
+    }
 }
 
 impl Gradient {
+    /// Values of the parameters in SI units.
+    fn si(&self, values: &[f64]) -> PyResult<Vec<f64>> {
+        if values.len() != self.parameters.len() {
+            let (needed, given) = (self.parameters.len(), values.len());
+            let message = format!("the gradient has {needed} parameters, and got {given} values");
+            return Err(Trouble::of_value(message).into());
+        }
+        let units = values.iter().zip(&self.parameters);
+        Ok(units.map(|(value, unit)| (value + unit.offset) * unit.scale).collect())
+    }
+
     fn shown(&self, found: &Gradients) -> Found {
         let units = || found.values.iter().zip(&self.results);
         let values = units().map(|(value, unit)| unit.from_si(*value)).collect();

@@ -137,3 +137,13 @@ pub(crate) fn unit(text: &str) -> PyResult<(f64, f64, String)> {
     let si = if unit.offset > 0.0 { "K".to_owned() } else { unit.ty.dimension.si_unit() };
     Ok((unit.scale, unit.offset, si))
 }
+
+/// The text of a quantity of an option, as every question takes it; `None` for `None`.
+#[pyfunction]
+pub(crate) fn quantity_text(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
+    let wrong = || Trouble::of_type(format!("`{name}` takes a quantity such as \"10 min\""));
+    if value.is_none() {
+        return Ok(None);
+    }
+    Ok(Some(words::text(value)?.ok_or_else(wrong)?))
+}

@@ -157,6 +157,15 @@ impl Simulation {
     }
 
     fn goes(&mut self, py: Python<'_>, to: f64) -> PyResult<()> {
+        let now = self.simulation.time();
+        if to < now {
+            let message = format!("the simulation is at {now} s and cannot go back to {to} s");
+            return Err(Trouble::of_value(message).into());
+        }
+        if to <= now {
+            self.events.clear();
+            return Ok(());
+        }
         let simulation = &mut self.simulation;
         let answer = soon(py, move || {
             simulation.advance(Time(to), &[]).map_err(|error| Failure::of(&error).into())

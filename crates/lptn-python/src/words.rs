@@ -205,7 +205,7 @@ fn read(name: &str, value: &Bound<'_, PyAny>) -> Result<Option<Value>, Trouble> 
         return Ok(Some(Value::Text(text)));
     }
     if !(value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>()) {
-        return Err(wrong(name, "a text, a number, a list, True or False", value));
+        return Err(wrong(name, "a text, or a number with its unit: (10, \"min\")", value));
     }
     let each = |item: PyResult<Bound<'_, PyAny>>| {
         let item = item?;
@@ -214,7 +214,8 @@ fn read(name: &str, value: &Bound<'_, PyAny>) -> Result<Option<Value>, Trouble> 
     Ok(Some(Value::Texts(value.try_iter()?.map(each).collect::<Result<_, _>>()?)))
 }
 
-/// The text of a text, a path, a number, or a number with its unit: `(4.5, "W/K")`, a result.
+/// The text of a text, a path, a number, a `timedelta`, or a number with its unit: `(4.5, "W/K")`, a
+/// result.
 pub(crate) fn text(value: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     if let Ok(text) = value.cast::<PyString>() {
         return Ok(Some(text.to_cow()?.into_owned()));
@@ -229,6 +230,9 @@ pub(crate) fn text(value: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     if let Some(number) = number(value) {
         let unit = value.getattr_opt("unit")?.filter(|unit| !unit.is_none());
         return Ok(Some(unit.map_or_else(|| number.clone(), |unit| format!("{number} {unit}"))));
+    }
+    if let Some(seconds) = value.getattr_opt("total_seconds")? {
+        return Ok(Some(format!("{:?} s", seconds.call0()?.extract::<f64>()?)));
     }
     match value.getattr_opt("__fspath__")? {
         Some(path) => path.call0()?.extract().map(Some),

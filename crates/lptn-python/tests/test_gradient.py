@@ -4,6 +4,7 @@ import cmath
 import importlib.util
 import math
 import unittest
+from datetime import timedelta
 
 import numpy as np
 
@@ -63,6 +64,62 @@ class Gradients(unittest.TestCase):
         value, gradient = net.value_and_grad("block.T", by="P")(0.05)
         self.assertAlmostEqual(value, 50.0, places=9)
         self.assertAlmostEqual(gradient[0], 500.0, places=7)
+
+    def test_a_margin_alone(self):
+        # 60 degC - T
+        value, gradient = block().value_and_grad("margin(warm)", by=["P", "G"], over="steady")([40, 2])
+        self.assertAlmostEqual(value, 15, places=9)
+        np.testing.assert_allclose(gradient, [-0.5, 10], rtol=1e-8)
+        margin = block().value_and_grad("margin(warm)", by=["P", "G"], over="run", tolerance="1e-9 K")
+        self.assertAlmostEqual(margin.value([40, 2]), closed(40, 2)[2], places=7)
+        self.assertEqual(margin.units, ["K"])
+
+    def test_many_times_of_one_run(self):
+        decay = lambda t: np.exp(-2.0 * t / 500)
+        times = np.array([600.0, 0.0, 60.0, 60.0, 1800.0])
+        tolerance = "1e-9 K"
+        model = block().value_and_grad("block.T", by=["P", "G"], times=times, tolerance=tolerance)
+        value, gradient = model([40, 2])
+        np.testing.assert_allclose(value, 25 + 20 * (1 - decay(times)), rtol=1e-9)
+        by_g = -10 * (1 - decay(times)) + 20 * decay(times) * times / 500
+        expected = np.stack([(1 - decay(times)) / 2, by_g], axis=1)
+        np.testing.assert_allclose(gradient, expected, rtol=1e-7, atol=1e-8)
+        both = {"T": "block.T", "Q": "cooling.Q"}
+        model = block().value_and_grad(both, by="P", times=([1, 30], "min"), tolerance=tolerance)
+        value, gradient = model(40)
+        self.assertEqual((value.shape, gradient.shape), ((2, 2), (2, 2, 1)))
+        np.testing.assert_allclose(value[1], 40 * (1 - decay(np.array([60, 1800]))), rtol=1e-9)
+        np.testing.assert_allclose(gradient[1, :, 0], value[1] / 40, rtol=1e-7)
+        run = block().run(every="10 min", tolerance=tolerance)
+        model = block().value_and_grad("block.T", by="P", times=run["time"], tolerance=tolerance)
+        np.testing.assert_allclose(model.value(40), run["block.T"], rtol=1e-9)
+
+    def test_times_are_those_of_a_run(self):
+        net = block()
+        for wrong in [{"stop": "1 h"}, {"over": "steady"}]:
+            self.assertRaises(TypeError, net.value_and_grad, "block.T", by="P", times=[1.0], **wrong)
+        for wrong in ["max(block.T)", "margin(warm)"]:
+            self.assertRaises(TypeError, net.value_and_grad, wrong, by="P", times=[1.0])
+        for wrong in [[math.nan], [], ([1.0], "K")]:
+            self.assertRaises(ValueError, net.value_and_grad, "block.T", by="P", times=wrong)
+        with self.assertRaises(lptn.Error) as caught:
+            net.value_and_grad("block.T", by="P", times=[-5.0, 10.0])(40.0)
+        self.assertEqual(caught.exception.code, "gradient::outside")
+
+    def test_functionals_of_results_with_commas(self):
+        net = block()
+        for of in ["mean(max(block.T, 20 [degC]))", "last(if(t > 5 [s], 1, 2) * cooling.Q)"]:
+            self.assertEqual(net.value_and_grad(of, by="P").over, "run")
+        self.assertEqual(net.value_and_grad("max(block.T, 20 [degC])", by="P").over, "steady")
+        with self.assertRaises(lptn.Error) as caught:
+            net.value_and_grad("time_over(block.T, 30 [degC])", by="P")(40.0)
+        self.assertEqual(caught.exception.code, "gradient::functional")
+
+    def test_stop_is_that_of_a_run(self):
+        for stop in ["600 s", (10, "min"), timedelta(minutes=10)]:
+            function = block().value_and_grad("last(block.T)", by="P", stop=stop)
+            self.assertAlmostEqual(function.value(40), 25 + 20 * (1 - np.exp(-2.4)), places=3)
+        self.assertRaises(ValueError, function, math.nan)
 
     def test_a_thousand_parameters_cost_few_solutions(self):
         # a chain of 1 K/W each, 1 W at its end: dT_end/dR_k = 1 W

@@ -5,10 +5,12 @@ import sys
 import tempfile
 import threading
 import unittest
+from datetime import timedelta
 
 import numpy as np
 
 import lptn
+from lptn._help import text as help_text
 from lptn._messages import in_python
 from test_lptn import BODY, GEARBOX
 from test_made import block
@@ -71,8 +73,22 @@ class Arguments(unittest.TestCase):
             error = self.refused(lptn.Error, lambda: self.net.sweep(frame, **words))
             self.assertTrue(error.code and not error.places)
             self.assertFalse(str(error).startswith("netlist.toml"))
+        self.refused(TypeError, lambda: self.net.sweep({"P": [True, 2.0]}), "column `P`", "True")
+        self.refused(TypeError, lambda: self.net.sweep({"P": ["3 W"]}), "its heading has the unit")
+        for frame in [np.ones(3), [1, 2]]:
+            self.refused(TypeError, lambda: self.net.sweep(frame), "a dictionary such as")
+        self.refused(TypeError, lambda: self.net.sweep({"P": [1], "P [W]": [2]}), "more than one")
+        self.refused(TypeError, lambda: self.net.sweep({"P": [1], "note": ["a"]}), "take frame[['P']]")
         frame = {"P": [1.0, float("nan")]}
         self.refused(lptn.Error, lambda: self.net.sweep(frame), "candidate 2: column `P`")
+
+    def test_plots_and_durations(self):
+        self.refused(TypeError, self.net.steady().plot, "a steady state has no curves")
+        self.refused(TypeError, lambda: self.net.run(stop={"a": 1}), "(10, \"min\")")
+        last = self.net.run(stop=timedelta(minutes=2))["time"][-1]
+        self.assertEqual(last, 120.0)
+        self.refused(TypeError, lambda: lptn.load(BODY), "lptn.parse reads a text")
+        self.assertIn("margin", help_text("value_and_grad"))
 
     def test_kinds_of_arguments(self):
         self.refused(TypeError, lambda: self.net.run(set="x"), "`set` takes a dictionary")
@@ -120,6 +136,11 @@ class Arguments(unittest.TestCase):
 
     def test_simulations(self):
         sim = self.net.simulation()
+        self.refused(KeyError, lambda: sim["cooling.Q"], "has temperatures")
+        self.refused(lptn.Error, lambda: sim.release("Q"), "`Q`")
+        sim.advance("0 s")
+        sim.step("0 s")
+        self.refused(ValueError, lambda: sim.step("-1 s"), "cannot go back")
         for wrong in ["x", '{"a": 1}', 3, None]:
             self.refused(ValueError, lambda: sim.restore(wrong), "that `save` of a simulation gave")
         failed = []

@@ -33,7 +33,7 @@ pub use compare::{
 };
 pub use digest::{Hashing, sha256};
 pub use gears::{GearError, GearPoint, GearState, GearTask, MemberState, MeshTeeth, PartLoss};
-pub use gradient::{GradientError, Gradients};
+pub use gradient::{GradientError, GradientSeries, Gradients};
 pub use manifest::{Environment, FileHash, Manifest, ParameterRecord, RunEnd, Sundials};
 pub use moment::utc;
 pub use rank::{RankError, Ranking, effect, has_effect};

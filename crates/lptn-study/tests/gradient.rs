@@ -178,6 +178,33 @@ fn a_network_without_capacities_has_jumps_of_its_results_too() {
     near(&found.slopes[0], &[half / POWER, -half / CONDUCTANCE]);
 }
 
+/// Values and derivatives at many times of one run.
+#[test]
+fn a_record_has_its_closed_form() {
+    let reports = "r = \"last(block.T - air.T)\", h = \"last(if(t < 300 [s], 2, 1) * cooling.Q)\"";
+    let netlist = parse("gradient.toml", &text("run", reports, CONSTANT)).unwrap();
+    let study = netlist.studies.sweeps[0].clone();
+    let cases = Cases::new(study.plan(&netlist.network).unwrap());
+    let task = SweepTask::new(netlist, study, cases).unwrap();
+    let series = |times: &[f64]| {
+        task.gradient_series(&[POWER, CONDUCTANCE], (2, times), &|_| Proceed::Continue)
+    };
+    let times = [0.0, 7.5, 299.0, 300.0, 301.0, 1000.0];
+    let found = series(&times).unwrap();
+    for (row, time) in times.into_iter().enumerate() {
+        let [value, by_p, by_g] = rise(time);
+        let at = |one: &lptn_study::GradientSeries| {
+            [one.values[row], one.slopes[0][row], one.slopes[1][row]]
+        };
+        near(&at(&found[0]), &[value, by_p, by_g]);
+        let factor = CONDUCTANCE * if time < 300.0 { 2.0 } else { 1.0 };
+        let heat = [factor * value, factor * by_p, factor * (by_g + value / CONDUCTANCE)];
+        near(&at(&found[1]), &heat);
+    }
+    let code = lptn_units::Problem::code(&series(&[1200.0]).unwrap_err());
+    assert_eq!(code, "gradient::outside");
+}
+
 #[test]
 fn a_comparison_that_temperatures_or_parameters_move_is_refused() {
     let code = |report: &str| {

@@ -77,9 +77,19 @@ def explain(network: Network, error: Error, case: Any) -> None:
 def _columns(network: Network, frame: Any) -> list[tuple[str, bytes]]:
     """The columns with the headings of a CSV file, such as `G_out [W/K]`, and their numbers."""
     columns: dict[str, np.ndarray] = {}
+    if not hasattr(frame, "columns") and not isinstance(frame, Mapping):
+        kind = type(frame).__name__
+        raise TypeError(f'a frame is a DataFrame or a dictionary such as {{"G": [3, 4]}}, not {kind}')
     # polars has `columns`, dictionaries have `keys`, pandas both
     heads = list(frame.columns if hasattr(frame, "columns") else frame)
     names = [str(head).partition("[")[0].strip() for head in heads]
+    twice = [name for name in names if names.count(name) > 1]
+    if twice:
+        raise TypeError(f"the frame has more than one column `{twice[0]}`")
+    other = [name for name in names if name not in network.parameters]
+    if other and any(name in network.parameters for name in names):
+        own = [name for name in names if name not in other]
+        raise TypeError(f"`{other[0]}` is not a parameter of the network: take frame[{own}]")
     for head, name, (_, unit) in zip(heads, names, known(network._netlist, names)):
         heading = str(head) if "[" in str(head) or not unit else f"{name} [{unit}]"
         columns[heading] = _numbers(name, frame[head])
@@ -101,7 +111,10 @@ def _numbers(name: str, column: Any) -> np.ndarray:
 
 
 def _number(name: str, value: Any) -> float:
-    if isinstance(value, str) or not hasattr(value, "__float__") or getattr(value, "ndim", 0):
+    if isinstance(value, str):
+        raise TypeError(f"column `{name}` has numbers, not {value!r}: its heading has the unit, {name} [W]")
+    truth = type(value).__name__ in ("bool", "bool_")
+    if truth or not hasattr(value, "__float__") or getattr(value, "ndim", 0):
         raise TypeError(f"column `{name}` of the frame has numbers, not {value!r}")
     return float(value)
 

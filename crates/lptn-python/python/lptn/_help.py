@@ -3,9 +3,21 @@
 from __future__ import annotations
 
 import difflib
+import inspect
+from typing import Any
 
 from . import _lptn
 from ._questions import MORE, method_name
+
+
+# Methods of a network that are not a question.
+_METHODS = ("simulation", "to_toml", "value_and_grad")
+
+
+def _network() -> Any:
+    from . import _network
+
+    return _network
 
 
 def help(topic: str | None = None) -> None:
@@ -31,6 +43,8 @@ def text(topic: str | None) -> str:
         parts.append(_section(*sections[name]))
     if name.replace(" ", "_") in questions:
         parts.append(_question(*questions[name.replace(" ", "_")]))
+    if not parts and name in _METHODS:
+        return inspect.getdoc(getattr(_network().Network, name)) or ""
     if parts:
         return "\n\n".join(parts)
     near = difflib.get_close_matches(name, [*sections, *questions], n=1)

@@ -206,22 +206,32 @@ class Network(Questions):
         by: str | Sequence[str],
         *,
         over: str | None = None,
-        stop: str | None = None,
-        tolerance: str | None = None,
+        stop: Any = None,
+        tolerance: Any = None,
+        times: Any = None,
     ) -> Function:
         """Results as a function of parameters: `value, gradient = function(x)`.
 
             hot = net.value_and_grad("max(steel.T)", by=["G_out", "P_7000"])
-            scipy.optimize.minimize(hot, hot.x0, jac=True)
+            goal = lambda x: ((hot(x)[0] - 80) ** 2, 2 * (hot(x)[0] - 80) * hot(x)[1])
+            scipy.optimize.minimize(goal, hot.x0, jac=True, bounds=[(1, 20), (100, 400)])
 
         `of` is an expression of the steady state, or `last`, `max`, `min`, `mean` or `integral` of
         one over the run, or `margin(LIMIT)` with `over`; a list or a dictionary gives several. The
         gradient is exact: by the adjoint of a steady state or of a run, through its switches. `stop`
         and `tolerance` are those of the run: `last` with `stop="10 min"` is a value at 10 min.
+        Conductances and capacities are positive: give an optimiser bounds, or logarithms.
+
+        With `times` (in s, or with their unit: `([1, 2, 5], "min")`) results are quantities such as
+        "steel.T", and their values and derivatives at all times of one run are arrays:
+
+            model = net.value_and_grad("steel.T", by=["G_out"], times=record["t"])
+            least_squares(lambda x: model.value(x) - record["T"], model.x0, jac=model.jac)
         """
         from ._gradient import Function
 
-        return Function(self, of, by, over, (stop, tolerance))
+        run = (_lptn.quantity_text("stop", stop), _lptn.quantity_text("tolerance", tolerance))
+        return Function(self, of, by, over, run, times)
 
     def simulation(self) -> Simulation:
         """A simulation of the network, to be stepped."""
@@ -242,6 +252,8 @@ def load(file: str | os.PathLike[str], /, **parameters: Any) -> Network:
     Raises `lptn.Error` with all problems of the netlist.
     """
     name = os.fsdecode(file)
+    if "\n" in name:
+        raise TypeError("lptn.load reads a file: lptn.parse reads a text")
     own = values(parameters, lambda: _lptn.Netlist.read(name, {}))
     return Network._of(_lptn.Netlist.read(name, own), ("load", name, own))
 
@@ -264,7 +276,7 @@ def _of_tables(tables: Tables) -> Network:
 
 def asked(question: str, files: list[Any], words: dict[str, Any]) -> Result:
     """Asks a question that is not about one network."""
-    return answered(_lptn.ask(question, paths(tuple(files)), words), question, words, 2)
+    return answered(_lptn.ask(question, paths(tuple(files)), words), question, words, 3)
 
 
 class Simulation:
@@ -300,6 +312,9 @@ class Simulation:
 
     def __getitem__(self, name: str) -> float:
         """The temperature of a node or boundary: `sim["steel.T"]`."""
+        node, _, quantity = name.rpartition(".")
+        if node and quantity != "T":
+            raise KeyError(f'{name}: a simulation has temperatures, sim["{node}.T"], and state(..)')
         return self.temperature(name.removesuffix(".T"))
 
     def temperature(self, node: str) -> float:

@@ -310,6 +310,8 @@ class Result:
         """Draws columns, or all temperatures, and their limits with matplotlib: in `ax` or in a new
         figure.
         """
+        if self._scalar:
+            raise TypeError("a steady state has no curves: svg() draws it, and table has its numbers")
         if ax is None:
             from ._frames import needed
 
@@ -324,7 +326,9 @@ class Result:
 
     def _bounds(self, names: Sequence[str]) -> Iterator[tuple[str, float]]:
         """The constant bounds of the limits of these columns, in their units."""
-        for name, limit in self.limits.items():
+        # a sweep counts its candidates
+        judged = ((name, of) for name, of in self.limits.items() if isinstance(of, dict))
+        for name, limit in judged:
             for side in ("below", "above"):
                 bound = limit.get(side)
                 if limit.get("of") in names and isinstance(bound, dict):

@@ -21,6 +21,10 @@ pub enum GradientError {
     Backward => BackwardError;
     /// A value of the network cannot be evaluated.
     Input => InputError;
+    /// A time in s at which the run has no results.
+    Outside { time: f64, start: f64, stop: f64 } = "gradient::outside",
+        format!("the run goes from {start} s to {stop} s and has no results at {time} s"),
+        help "take times of the run, or begin it earlier: `start` of [run]";
     /// The results are those of a cycle.
     Periodic = "gradient::periodic", "a periodic steady state has no gradient",
         help "take the results over a run that lasts several periods";

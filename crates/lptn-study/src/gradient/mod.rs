@@ -12,14 +12,17 @@ mod backward;
 mod error;
 mod followed;
 mod over_run;
+mod series;
 
 pub use error::GradientError;
 pub use followed::Gradients;
+pub use series::GradientSeries;
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Measure, SweepOver};
 use lptn_network::{
-    Bound, Functional, Item, Limit, LimitId, LimitSeverity, Network, ParameterId, Value,
+    Bound, Functional, Item, Limit, LimitId, LimitSeverity, Network, ParameterId, RunSettings,
+    Value,
 };
 use lptn_solve::{Proceed, Progress};
 
@@ -39,22 +42,15 @@ impl SweepTask {
         (reports, margins): (usize, &[LimitId]),
         observer: &dyn Fn(Progress) -> Proceed,
     ) -> Result<Gradients, GradientError> {
-        let mut parameters = self.network().given();
-        let ids: Vec<ParameterId> = self.cases().parameters().collect();
-        ids.iter().zip(values).for_each(|(id, &value)| parameters.set(*id, value));
-        let network = self.network().with(&parameters)?;
-        let own = network.limits().len();
-        let network = network.requiring(self.study().reports.iter().take(reports).map(limit));
+        let (network, ids) = self.asked_at(values, reports)?;
+        let own = self.network().limits().len();
         let followed = self.followed(&network, (own, margins))?;
         let system = ThermalSystem::assemble(&network).map_err(lptn_assembly::ChangeError::from)?;
         match self.study().over {
             SweepOver::Steady => self.steady_gradients(&system, &followed, &ids),
             SweepOver::Periodic => Err(GradientError::Periodic),
             SweepOver::Run => {
-                let run = self.netlist().run.as_ref().ok_or(GradientError::NoRun)?;
-                if self.netlist().run_values().any(|value| network.depends_on(value, &ids)) {
-                    return Err(GradientError::Times);
-                }
+                let run = self.run_for(&network, &ids)?;
                 let mut moving = followed.iter().filter(|one| {
                     one.functional != Functional::Last
                         && network.result_jump_moves(Item::Limit(one.limit), &ids)
@@ -68,6 +64,33 @@ impl SweepTask {
                 }
                 backward::gradients((&system, &ids), run, &followed, observer)
             }
+        }
+    }
+
+    /// The network with these values and the first reports of the study as limits, and the parameters
+    /// of the study.
+    fn asked_at(
+        &self,
+        values: &[f64],
+        reports: usize,
+    ) -> Result<(Network, Vec<ParameterId>), GradientError> {
+        let mut parameters = self.network().given();
+        let ids: Vec<ParameterId> = self.cases().parameters().collect();
+        ids.iter().zip(values).for_each(|(id, &value)| parameters.set(*id, value));
+        let network = self.network().with(&parameters)?;
+        Ok((network.requiring(self.study().reports.iter().take(reports).map(limit)), ids))
+    }
+
+    /// The run, whose times depend on none of the parameters.
+    fn run_for(
+        &self,
+        network: &Network,
+        ids: &[ParameterId],
+    ) -> Result<&RunSettings, GradientError> {
+        let run = self.netlist().run.as_ref().ok_or(GradientError::NoRun)?;
+        match self.netlist().run_values().any(|value| network.depends_on(value, ids)) {
+            true => Err(GradientError::Times),
+            false => Ok(run),
         }
     }
 
