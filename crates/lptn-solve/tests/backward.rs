@@ -100,7 +100,7 @@ fn both_ways_in_time_agree() {
 /// sensitivities by CVODES.
 #[test]
 fn linear_networks_agree_with_forward_sensitivities() {
-    let network = rod(60, "");
+    let network = rod(60, ("", "50 W", ""));
     let parameters: Vec<ParameterId> = network.parameter_ids().collect();
     let limit = network.limit_ids().next().unwrap();
     let forward = sensitive_run(&network, &until(1000.0, 1e-9), &parameters).unwrap();
@@ -282,16 +282,39 @@ fn margin(solution: &Solution, functional: Functional) -> f64 {
 #[test]
 #[ignore = "measures time"]
 fn thousand_parameters() {
-    for law in ["", " * (1 + 0.001 [1/K] * (@.T - 20 [degC]))"] {
-        let network = rod(1000, law);
+    for law in LAWS {
+        let network = rod(1000, (law, "50 W", ""));
         for tolerance in [1e-3, 1e-4, 1e-6, 1e-8] {
-            println!("`{law}` at {tolerance} K: {}", cost_of_gradient(&network, tolerance));
+            println!(
+                "`{law}` at {tolerance} K: {}",
+                cost_of_gradient(&network, (1000.0, tolerance))
+            );
         }
     }
 }
 
-/// A rod of some nodes with a factor of each conductance, in which `@` is its node.
-fn rod(count: usize, law: &str) -> Network {
+/// The same heated by a thermostat, through 25 switches.
+#[test]
+#[ignore = "measures time"]
+fn thousand_parameters_through_switches() {
+    let heater = "[control]\nheater = { sense = \"n999\", off_above = \"45 degC\", on_below = \"40 \
+                  degC\", start = \"on\" }\n";
+    for law in LAWS {
+        let network = rod(1000, (law, "heater * 50 [W]", heater));
+        for tolerance in [1e-3, 1e-4, 1e-6, 1e-8] {
+            println!(
+                "`{law}` at {tolerance} K: {}",
+                cost_of_gradient(&network, (100.0, tolerance))
+            );
+        }
+    }
+}
+
+const LAWS: [&str; 2] = ["", " * (1 + 0.001 [1/K] * (@.T - 20 [degC]))"];
+
+/// A rod of some nodes with a factor of each conductance, in which `@` is its node, the power at its
+/// end, and further entries.
+fn rod(count: usize, (law, power, more): (&str, &str, &str)) -> Network {
     let mut parts = [const { String::new() }; 3];
     let mut before = "air".to_owned();
     for k in 0..count {
@@ -306,19 +329,19 @@ fn rod(count: usize, law: &str) -> Network {
     let [parameters, nodes, paths] = parts;
     network(&format!(
         "[param]\n{parameters}[boundary]\nair = {{ T = \"20 degC\" }}\n[node]\n{nodes}[resistor]\n\
-         {paths}[source]\nheat = {{ into = \"{before}\", P = \"50 W\" }}\n[limit]\nhot = {{ of = \
+         {paths}[source]\nheat = {{ into = \"{before}\", P = \"{power}\" }}\n{more}[limit]\nhot = {{ of = \
          \"n{}.T\", below = \"500 degC\" }}\n[run]\nstop = \"1000 s\"\n",
         count * 99 / 100
     ))
 }
 
-fn cost_of_gradient(network: &Network, tolerance: f64) -> String {
+fn cost_of_gradient(network: &Network, (stop, tolerance): (f64, f64)) -> String {
     let limit = network.limit_ids().next().unwrap();
     let parameters: Vec<ParameterId> = network.parameter_ids().collect();
     let began = std::time::Instant::now();
-    run(network, &until(1000.0, tolerance));
+    run(network, &until(stop, tolerance));
     let once = began.elapsed();
-    let settings = Transient { trajectory: true, ..until(1000.0, tolerance) };
+    let settings = Transient { trajectory: true, ..until(stop, tolerance) };
     let began = std::time::Instant::now();
     let solution = run(network, &settings);
     let way =

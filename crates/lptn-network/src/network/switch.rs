@@ -8,7 +8,7 @@
 use std::borrow::Cow;
 
 use crate::evaluation::{Evaluation, PASS};
-use crate::id::{Item, SwitchId};
+use crate::id::{Item, NodeId, SwitchId};
 use crate::input_error::InputError;
 use crate::network::Network;
 use crate::network::flow::{name, place, seeded};
@@ -44,6 +44,13 @@ impl Network {
             slope += found.derivatives.iter().map(|d| d.abs()).sum::<f64>();
         }
         Ok((value, slope))
+    }
+
+    /// The nodes whose temperatures the sides of a switch may read.
+    pub fn nodes_of_switch(&self, id: SwitchId) -> Vec<NodeId> {
+        let (dependence, _) = self.switch_dependence(&self.switches()[id.index()]);
+        let nodes = dependence.vertices.iter().map(|vertex| *vertex as usize);
+        nodes.filter(|vertex| *vertex < self.nodes().len()).map(NodeId::from_len).collect()
     }
 
     fn switch_dependence(&self, switch: &Switch) -> (Cow<'_, Dependence>, bool) {

@@ -6,7 +6,7 @@ use lptn_units::Scalar;
 
 use super::reads::{Lanes, each, free};
 use super::{Known, Pass, Tangents};
-use crate::evaluation::{Evaluation, Slope};
+use crate::evaluation::{Evaluation, PASS, Slope};
 use crate::id::{ConductorId, Field, Item};
 use crate::input_error::InputError;
 use crate::law::{At, ConductorFlow, Received};
@@ -199,9 +199,23 @@ impl Pass {
         (add, slopes): (&mut Add<'_>, &mut [Received]),
     ) -> Result<(), InputError> {
         let Self { slots, stack, boundaries, reads, .. } = self;
+        let nodes = network.nodes().len();
+        let moves = |vertex: usize| {
+            vertex.checked_sub(nodes).is_some_and(|k| boundaries[k].derivatives != [0.0; PASS])
+        };
         for path in &reads.conductors {
+            let ends = path.ends;
+            if let Known::Conductance(conductance) = &path.law
+                && !ends.into_iter().any(moves)
+            {
+                let difference = temperatures[ends[0]] - temperatures[ends[1]];
+                for (k, slope) in each(&path.lanes, &conductance.derivatives) {
+                    add(ends[0], k, -slope * difference);
+                    add(ends[1], k, slope * difference);
+                }
+                continue;
+            }
             let conductor = &network.conductors()[path.id.index()];
-            let ends = [conductor.from, conductor.to].map(|end| network.vertex(end));
             let dual = |vertex: usize| of_vertex(vertex, network, boundaries, temperatures);
             let (from, to) = (dual(ends[0]), dual(ends[1]));
             let received = match path.law {

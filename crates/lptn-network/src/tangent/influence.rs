@@ -3,7 +3,7 @@
 use lptn_units::Program;
 
 use super::Variable;
-use crate::id::{BoundaryId, ControlId, Item, NodeId};
+use crate::id::{BoundaryId, ControlId, Item, NodeId, ParameterId};
 use crate::network::Network;
 use crate::parts::layout::Holds;
 use crate::parts::signal::Course;
@@ -18,6 +18,13 @@ pub(super) struct Influence<'a> {
 }
 
 impl<'a> Influence<'a> {
+    /// Of these parameters.
+    pub(super) fn of(network: &'a Network, parameters: &[ParameterId]) -> Self {
+        let variables: Vec<Variable> =
+            parameters.iter().copied().map(Variable::Parameter).collect();
+        Self::new(network, &variables)
+    }
+
     pub(super) fn new(network: &'a Network, variables: &[Variable]) -> Self {
         let layout = &network.parts.layout;
         let mut influence = Self { network, slots: vec![false; layout.len()] };

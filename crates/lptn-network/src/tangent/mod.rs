@@ -89,6 +89,8 @@ struct Reads {
 #[derive(Clone, Debug)]
 struct Path {
     id: ConductorId,
+    /// The vertices of its ends.
+    ends: [usize; 2],
     lanes: Lanes,
     law: Known,
     /// In one of the passes of a conductor.
@@ -143,10 +145,10 @@ impl Network {
         self.tangents_of(influence, variables)
     }
 
-    /// True if the distance of a control from its threshold changes with a parameter at fixed
-    /// temperatures of the nodes.
-    pub fn control_follows(&self, id: ControlId, parameter: ParameterId) -> bool {
-        let influence = Influence::new(self, &[Variable::Parameter(parameter)]);
+    /// True if the distance of a control from its threshold changes with one of these parameters at
+    /// fixed temperatures of the nodes.
+    pub fn control_follows(&self, id: ControlId, parameters: &[ParameterId]) -> bool {
+        let influence = Influence::of(self, parameters);
         self.thermostat(id).is_some_and(|of| {
             let senses = match of.sense {
                 End::Boundary(id) => influence.boundary(id),
@@ -156,19 +158,24 @@ impl Network {
         })
     }
 
-    /// True if the difference of the sides of a comparison changes with a parameter at fixed
-    /// temperatures of the nodes.
-    pub fn comparison_follows(&self, id: SwitchId, parameter: ParameterId) -> bool {
-        let influence = Influence::new(self, &[Variable::Parameter(parameter)]);
-        influence.program(&self.switches()[id.index()].difference)
+    /// The node that a control senses; `None` if it senses a boundary.
+    pub fn node_of_control(&self, id: ControlId) -> Option<NodeId> {
+        match self.thermostat(id)?.sense {
+            End::Node(id) => Some(id),
+            End::Boundary(_) => None,
+        }
+    }
+
+    /// True if the difference of the sides of a comparison changes with one of these parameters at
+    /// fixed temperatures of the nodes.
+    pub fn comparison_follows(&self, id: SwitchId, parameters: &[ParameterId]) -> bool {
+        Influence::of(self, parameters).program(&self.switches()[id.index()].difference)
     }
 
     /// True if a limit or report jumps at a time which no event marks and which depends on
     /// temperatures or on these parameters: its integral and extremes change with that time.
     pub fn result_jump_moves(&self, item: Item, parameters: &[ParameterId]) -> bool {
-        let variables: Vec<Variable> =
-            parameters.iter().copied().map(Variable::Parameter).collect();
-        Influence::new(self, &variables).moves_jump_of(item)
+        Influence::of(self, parameters).moves_jump_of(item)
     }
 
     /// The same at one moment, and by signals too. Controls and comparisons keep the positions of the
@@ -282,7 +289,9 @@ impl Pass {
             match read {
                 Read::Conductor(id) => {
                     let law = self.known_law(network, id);
-                    self.reads.conductors.push(Path { id, lanes, law, seeds: None });
+                    let conductor = &network.conductors()[id.index()];
+                    let ends = [conductor.from, conductor.to].map(|end| network.vertex(end));
+                    self.reads.conductors.push(Path { id, ends, lanes, law, seeds: None });
                 }
                 Read::Source(id) => self.reads.sources.push((id, lanes)),
                 Read::Boundary(id) => self.reads.boundaries.push(id),

@@ -27,6 +27,8 @@ pub(super) struct Moment<'a> {
     /// Time in s, one inside the segment, and the variables of the states.
     at: (f64, f64),
     state: Vec<f64>,
+    /// Without heat and with boundaries at 0 K, for constant conductances between states alone.
+    still: Option<Workspace>,
     /// For the response to heat that no source puts in.
     response: Workspace,
     /// Weights of the temperatures of all nodes of which `response` has the heat.
@@ -50,6 +52,14 @@ impl<'a> Moment<'a> {
         let tangents = network.tangents_between_events(parameters)?;
         let pattern = Pattern::from_symbolic(system.pattern().symbolic());
         let unfold = Unfold::new(system).map_err(|error| Unsolved::new(system, error))?;
+        let is_whole = system.unknowns().len() == system.states().len();
+        let plain = system.is_linear() && !unfold.carries_heat() && is_whole;
+        let still = plain.then(|| {
+            let mut still = system.workspace();
+            let boundaries = vec![0.0; system.network().boundaries().len()];
+            system.apply(&mut still, &vec![0.0; system.network().nodes().len()], &boundaries);
+            still
+        });
         Ok(Self {
             system,
             work: system.workspace(),
@@ -60,6 +70,7 @@ impl<'a> Moment<'a> {
             turned: Transposed::new(&pattern, system.states().len())?,
             at: (f64::NAN, f64::NAN),
             state: vec![f64::NAN; system.states().len()],
+            still,
             response: system.workspace(),
             applied: Vec::new(),
         })
@@ -121,6 +132,25 @@ impl<'a> Moment<'a> {
         self.kept = self.system.linearise(at, &mut self.tangents, &mut self.jacobian)?;
         self.turned.take(&self.jacobian);
         Ok(())
+    }
+
+    /// Completes `x` in 1/J by the values of the massless nodes, and writes the rows of the states of
+    /// `J^T x + weights`. Constant conductances are symmetric: their flows are differences, so that
+    /// small losses beside large conductances keep their digits.
+    pub(super) fn balance(
+        &mut self,
+        weights: &[f64],
+        x: &mut [f64],
+        rows: &mut [f64],
+    ) -> Result<(), BackwardError> {
+        match &self.still {
+            Some(still) => {
+                self.system.linear_flow(still, x, rows);
+                rows.iter_mut().zip(weights).for_each(|(row, weight)| *row += weight);
+                Ok(())
+            }
+            None => Ok(self.turned.balance(weights, x, rows)?),
+        }
     }
 
     /// Heat into each state in W.
@@ -203,7 +233,7 @@ impl<'a> Moment<'a> {
         let handed = self.handed(weights);
         let mut rise = vec![0.0; handed.len()];
         let mut states = vec![0.0; self.state.len()];
-        self.turned.balance(&handed, &mut rise, &mut states)?;
+        self.balance(&handed, &mut rise, &mut states)?;
         states.iter_mut().zip(self.slopes()).for_each(|(state, slope)| *state *= slope);
         let mut parameters = vec![0.0; self.tangents.variables().len()];
         let held: Vec<f64> = states.iter().map(|state| -state).collect();
@@ -224,7 +254,7 @@ impl<'a> Moment<'a> {
     ) -> Result<Vec<f64>, BackwardError> {
         let mut nodes = self.nodes().to_vec();
         let mut weights = vec![0.0; nodes.len()];
-        for id in self.system.network().node_ids() {
+        for id in self.read_by(kind) {
             let own = nodes[id.index()];
             let found = slope(KELVIN, |change| {
                 nodes[id.index()] = own + change;
@@ -243,6 +273,26 @@ impl<'a> Moment<'a> {
         BentMargin::Bends { name: name.to_owned(), by: format!("{by}.T") }.into()
     }
 
+    /// The nodes whose temperatures that distance may read.
+    fn read_by(&self, kind: EventKind) -> Vec<NodeId> {
+        let network = self.system.network();
+        match kind {
+            EventKind::Control(id) => network.node_of_control(id).into_iter().collect(),
+            EventKind::Comparison(id) => network.nodes_of_switch(id),
+            EventKind::Limit(_) => Vec::new(),
+        }
+    }
+
+    /// True if that distance changes with one of these parameters while temperatures stay.
+    pub(super) fn excess_follows(&self, kind: EventKind, parameters: &[ParameterId]) -> bool {
+        let network = self.system.network();
+        match kind {
+            EventKind::Control(id) => network.control_follows(id, parameters),
+            EventKind::Comparison(id) => network.comparison_follows(id, parameters),
+            EventKind::Limit(_) => false,
+        }
+    }
+
     /// Its derivative by a parameter while temperatures stay.
     pub(super) fn excess_by(
         &self,
@@ -250,12 +300,7 @@ impl<'a> Moment<'a> {
         parameter: ParameterId,
     ) -> Result<f64, BackwardError> {
         let network = self.system.network();
-        let follows = match kind {
-            EventKind::Control(id) => network.control_follows(id, parameter),
-            EventKind::Comparison(id) => network.comparison_follows(id, parameter),
-            EventKind::Limit(_) => false,
-        };
-        if !follows {
+        if !self.excess_follows(kind, &[parameter]) {
             return Ok(0.0);
         }
         let own = network.parameter_value(parameter);

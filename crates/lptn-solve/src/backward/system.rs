@@ -126,7 +126,7 @@ impl<'a> Adjoint<'a> {
     fn balance(&mut self, time: f64, x: &[f64]) -> Result<(), BackwardError> {
         self.go(time)?;
         self.unknowns[..x.len()].copy_from_slice(x);
-        self.moment.turned.balance(&self.handed, &mut self.unknowns, &mut self.rows)?;
+        self.moment.balance(&self.handed, &mut self.unknowns, &mut self.rows)?;
         let slopes = self.moment.unfolded().iter();
         self.rows.iter_mut().zip(slopes).for_each(|(row, slope)| *row *= slope);
         Ok(())

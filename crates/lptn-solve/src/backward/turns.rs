@@ -90,7 +90,9 @@ impl Way<'_> {
         let (point, _) = self.read(stretch, turn.time)?;
         let weights = self.moment().excess_by_nodes(kind, &name)?;
         let mut instant = self.moment().instant(&weights)?;
-        if let Some(positions) = &point.positions {
+        let parameters = self.asked.parameters;
+        let follows = self.moment().excess_follows(kind, parameters);
+        if let Some(positions) = point.positions.as_ref().filter(|_| follows) {
             for (by, &parameter) in instant.parameters.iter_mut().zip(self.asked.parameters) {
                 *by += self.integrator.system().moment.excess_by((kind, positions), parameter)?;
             }
