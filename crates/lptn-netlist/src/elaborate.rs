@@ -64,7 +64,7 @@ pub(crate) fn elaborate(
         csv,
         state,
         builder: NetworkBuilder::new(),
-        map: SourceMap::default(),
+        map: SourceMap::of(raw),
         names: Names::of(raw, structure, section::format()),
         problems: Vec::new(),
         dropped: 0,

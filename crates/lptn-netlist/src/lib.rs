@@ -72,6 +72,7 @@ mod overhang;
 mod parameters;
 mod pipe;
 mod place;
+mod places;
 mod plan;
 mod plausible;
 mod points;

@@ -173,6 +173,14 @@ impl RawValue {
         }
     }
 
+    /// The entries of a table; none of any other value.
+    pub(crate) fn entries(&self) -> &[RawEntry] {
+        match &self.kind {
+            RawKind::Table(table) => &table.entries,
+            _ => &[],
+        }
+    }
+
     /// The items of a list; any other value is one item.
     pub(crate) fn items(&self) -> &[Self] {
         match &self.kind {
