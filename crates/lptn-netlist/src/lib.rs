@@ -73,6 +73,7 @@ mod parameters;
 mod pipe;
 mod place;
 mod places;
+mod plain;
 mod plan;
 mod plausible;
 mod points;
