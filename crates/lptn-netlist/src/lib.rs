@@ -33,6 +33,7 @@ mod assign;
 mod assumed;
 mod believe;
 mod case;
+mod compiled;
 mod controller;
 mod course_text;
 mod csv_files;

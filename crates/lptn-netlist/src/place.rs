@@ -17,7 +17,7 @@ use crate::value_help::celsius_or_kelvin;
 #[derive(Clone, Debug)]
 pub(crate) enum Given {
     Quantity(Quantity),
-    Expression(Program),
+    Expression(Arc<Program>),
 }
 
 impl Given {
@@ -41,7 +41,7 @@ impl Given {
     pub(crate) fn value(self) -> Value {
         match self {
             Self::Quantity(quantity) => Value::Constant(quantity.value),
-            Self::Expression(program) => Value::Expression(Arc::new(program)),
+            Self::Expression(program) => Value::Expression(program),
         }
     }
 }
