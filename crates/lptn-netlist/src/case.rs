@@ -267,7 +267,7 @@ impl<'a> Elaboration<'a> {
         Some(CaseSignal { name: name.to_owned(), course, span: entry.key_span.clone() })
     }
 
-    fn no_signal(&self, case: &Owner, entry: &RawEntry) -> Diagnostic {
+    fn no_signal(&self, case: &Owner<'_>, entry: &RawEntry) -> Diagnostic {
         let name = entry.key.as_str();
         let message =
             format!("{} sets `{name}`, but there is no signal of this name", case.words());

@@ -97,7 +97,7 @@ pub(crate) struct Wrong<'a> {
 
 impl Wrong<'_> {
     /// The error in the keys of `owner`.
-    pub(crate) fn told(&self, owner: &Owner) -> Diagnostic {
+    pub(crate) fn told(&self, owner: &Owner<'_>) -> Diagnostic {
         let (name, example) = (self.key.name, self.key.example);
         let wanted = match name {
             "units" => "a table of units".to_owned(),

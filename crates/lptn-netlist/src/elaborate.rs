@@ -13,6 +13,7 @@ use lptn_network::{Network, NetworkBuilder};
 use lptn_units::Unit;
 
 use crate::adrift;
+use crate::compiled::Compiled;
 use crate::csv_files::CsvFiles;
 use crate::describe::describe;
 use crate::gearbox::Gears;
@@ -64,12 +65,13 @@ pub(crate) fn elaborate(
         csv,
         state,
         builder: NetworkBuilder::new(),
-        map: SourceMap::default(),
+        map: SourceMap::of(raw),
         names: Names::of(raw, structure, section::format()),
         problems: Vec::new(),
         dropped: 0,
         left_out: LeftOut::of(structure),
         scales: Scales::default(),
+        compiled: Compiled::default(),
         known: HashMap::new(),
         known_fluids: HashMap::new(),
         used: HashSet::new(),

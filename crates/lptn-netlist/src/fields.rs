@@ -1,5 +1,7 @@
 //! Reads one table and reports missing and unknown keys.
 
+use std::borrow::Cow;
+
 use lptn_data::{Diagnostic, Span, list};
 use lptn_network::Input;
 use lptn_units::Type;
@@ -9,42 +11,59 @@ use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 
 /// The element or section that a field belongs to, in words.
 #[derive(Clone, Debug)]
-pub(crate) struct Owner {
-    words: String,
+pub(crate) struct Owner<'a> {
+    words: Words<'a>,
     /// The section that declares its keys.
     section: &'static SectionDeclaration,
 }
 
-impl Owner {
-    /// An element, such as resistor `internal`.
-    pub(crate) fn element(kind: &str, name: &str) -> Self {
-        let words = [kind, " `", name, "`"].concat();
+/// Words that only errors need.
+#[derive(Clone, Debug)]
+enum Words<'a> {
+    /// Kind and name of an element.
+    Element(&'static str, Cow<'a, str>),
+    Section(&'static str),
+    /// A table inside a section.
+    Inside(String),
+}
+
+impl<'a> Owner<'a> {
+    fn of(words: Words<'a>) -> Self {
         Self { words, section: &SectionDeclaration::NEW }
     }
 
+    /// An element, such as resistor `internal`.
+    pub(crate) fn element(kind: &'static str, name: impl Into<Cow<'a, str>>) -> Self {
+        Self::of(Words::Element(kind, name.into()))
+    }
+
     /// A section without elements, such as `[run]`.
-    pub(crate) fn section(name: &str) -> Self {
-        Self { words: format!("[{name}]"), section: &SectionDeclaration::NEW }
+    pub(crate) fn section(name: &'static str) -> Self {
+        Self::of(Words::Section(name))
+    }
+
+    /// A table inside a section, such as `output` of [run].
+    pub(crate) fn inside(&self, key: &str) -> Owner<'static> {
+        Owner::of(Words::Inside(self.field(key)))
     }
 
     /// True if it is a section, not an element.
     fn is_section(&self) -> bool {
-        self.words.contains('[')
-    }
-
-    /// A table inside a section, such as `output` of [run].
-    pub(crate) fn inside(&self, key: &str) -> Self {
-        Self { words: self.field(key), section: &SectionDeclaration::NEW }
+        self.words().contains('[')
     }
 
     /// "`R` of resistor `internal`".
     pub(crate) fn field(&self, key: &str) -> String {
-        format!("`{key}` of {}", self.words)
+        format!("`{key}` of {}", self.words())
     }
 
     /// "resistor `internal`".
-    pub(crate) fn words(&self) -> &str {
-        &self.words
+    pub(crate) fn words(&self) -> String {
+        match &self.words {
+            Words::Element(kind, name) => format!("{kind} `{name}`"),
+            Words::Section(name) => format!("[{name}]"),
+            Words::Inside(words) => words.clone(),
+        }
     }
 
     /// The section that it belongs to.
@@ -59,7 +78,7 @@ impl Owner {
 
     /// The type of one of its keys, as it is declared.
     pub(crate) fn ty(&self, key: &str) -> Type {
-        debug_assert!(self.section.key(key).is_some(), "{key} is not a key of {}", self.words);
+        debug_assert!(self.section.key(key).is_some(), "{key} is not a key of {}", self.words());
         self.section.key(key).map_or(Type::SCALAR, KeyDeclaration::ty)
     }
 
@@ -80,7 +99,7 @@ pub(crate) struct Oil {
 /// The fields of one table, with all errors of its keys reported.
 #[derive(Debug)]
 pub(crate) struct Fields<'a> {
-    pub(crate) owner: Owner,
+    pub(crate) owner: Owner<'a>,
     /// The place of the element's name, or of the section's heading.
     pub(crate) place: &'a Span,
     /// True if every key is known: otherwise a misspelt key would be reported as missing, too.
@@ -96,7 +115,7 @@ impl<'a> Fields<'a> {
     /// The fields of `entry`; `None` if it is not a table.
     pub(crate) fn of(
         section: &'static SectionDeclaration,
-        owner: Owner,
+        owner: Owner<'a>,
         entry: &'a RawEntry,
         problems: &mut Vec<Diagnostic>,
     ) -> Option<Self> {
@@ -239,7 +258,7 @@ pub(crate) fn wrong_shape(field: &str, value: &RawValue, wanted: &str, sample: &
         .help(format!("write it like this: `{sample}`"))
 }
 
-fn not_a_table(section: &SectionDeclaration, owner: &Owner, entry: &RawEntry) -> Diagnostic {
+fn not_a_table(section: &SectionDeclaration, owner: &Owner<'_>, entry: &RawEntry) -> Diagnostic {
     let got = entry.value.kind.with_article();
     let message = format!("{} must be a table of fields, got {got}", owner.words());
     let error = Diagnostic::error("netlist::not_a_table", message).at(entry.value.span.clone(), "");
@@ -254,7 +273,7 @@ fn not_a_table(section: &SectionDeclaration, owner: &Owner, entry: &RawEntry) ->
 /// An element below the heading of another one.
 fn element_inside(
     section: &SectionDeclaration,
-    (owner, name): (&Owner, &str),
+    (owner, name): (&Owner<'_>, &str),
     field: &RawEntry,
 ) -> Diagnostic {
     let (key, kind) = (&field.key, section.name);
@@ -269,7 +288,11 @@ fn element_inside(
 }
 
 /// Error for a key that a section does not have.
-pub(crate) fn unknown(section: &SectionDeclaration, owner: &Owner, field: &RawEntry) -> Diagnostic {
+pub(crate) fn unknown(
+    section: &SectionDeclaration,
+    owner: &Owner<'_>,
+    field: &RawEntry,
+) -> Diagnostic {
     let key = &field.key;
     if section.later.contains(&key.as_str()) {
         let message = format!("{} is not supported yet", owner.field(key));

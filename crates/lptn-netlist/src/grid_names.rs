@@ -13,6 +13,9 @@ pub(crate) const VALUES: [&str; 3] = ["mean", "min", "max"];
 impl Names {
     /// The name of the grid with which `name` begins, and the part of it that `name` means.
     pub(crate) fn grid_part<'n>(&self, name: &'n str) -> Option<(&'n str, GridPart)> {
+        if self.grids.is_empty() {
+            return None; // most files have none
+        }
         let ends = name.match_indices(['.', '[']).map(|(at, _)| at).chain([name.len()]);
         let known = |end: usize| Some((end, self.grids.get(name.get(..end)?)?));
         let (end, grid) = ends.filter_map(known).next_back()?;

@@ -104,7 +104,8 @@ impl Names {
             }
         }
         for kind in format.elements() {
-            let entries = raw.elements(kind).iter();
+            let entries = raw.elements(kind);
+            names.elements.reserve(entries.len());
             for entry in entries {
                 names.elements.entry(entry.key.clone()).or_insert(kind);
                 names.hide_inner(entry);

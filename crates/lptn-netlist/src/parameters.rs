@@ -24,7 +24,7 @@ pub(crate) const PARAM: SectionDeclaration = SectionDeclaration {
 /// A parameter or signal before its names are resolved.
 pub(crate) struct Pending<'a> {
     pub(crate) entry: &'a RawEntry,
-    pub(crate) owner: Owner,
+    pub(crate) owner: Owner<'a>,
     /// `None` if it could not be read, or is not an expression.
     pub(crate) text: Option<Text>,
     /// Those of its kind that it uses, as positions in the file.

@@ -17,7 +17,7 @@ use crate::value_help::celsius_or_kelvin;
 #[derive(Clone, Debug)]
 pub(crate) enum Given {
     Quantity(Quantity),
-    Expression(Program),
+    Expression(Arc<Program>),
 }
 
 impl Given {
@@ -41,7 +41,7 @@ impl Given {
     pub(crate) fn value(self) -> Value {
         match self {
             Self::Quantity(quantity) => Value::Constant(quantity.value),
-            Self::Expression(program) => Value::Expression(Arc::new(program)),
+            Self::Expression(program) => Value::Expression(program),
         }
     }
 }
@@ -148,7 +148,7 @@ impl Wanted {
 /// One field of one element: its name and its value.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place<'a> {
-    pub(crate) owner: &'a Owner,
+    pub(crate) owner: &'a Owner<'a>,
     pub(crate) key: &'a str,
     pub(crate) raw: &'a RawValue,
 }
@@ -156,7 +156,7 @@ pub(crate) struct Place<'a> {
 impl Place<'_> {
     /// "`R` of resistor `internal`"; a parameter has no fields.
     pub(crate) fn words(&self) -> String {
-        if self.key.is_empty() { self.owner.words().to_owned() } else { self.owner.field(self.key) }
+        if self.key.is_empty() { self.owner.words() } else { self.owner.field(self.key) }
     }
 
     /// For the reader of a CSV file that the field names.

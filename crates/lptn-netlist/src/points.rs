@@ -247,7 +247,7 @@ impl<'a> Elaboration<'a> {
                 .also(fields.place.clone(), "read here")
         };
         let problem = match error {
-            TableError::NotIncreasing { index } => rising(words, arguments, x, *index)
+            TableError::NotIncreasing { index } => rising(&words, arguments, x, *index)
                 .also(fields.place.clone(), "read here")
                 .help("sort the points by their argument, each argument once"),
             TableError::TooShort => at_list(format!("{words} needs two points or more"))

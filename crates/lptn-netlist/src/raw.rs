@@ -123,6 +123,19 @@ pub enum RawKind {
 }
 
 impl RawKind {
+    /// A string, from its text with quotes and its content.
+    pub(crate) fn string(written: &str, text: String, span: &Span) -> Self {
+        let start = content_start(written, &text).map(|offset| span.range.start + offset);
+        Self::String { text, start }
+    }
+
+    /// An integer, which may be hexadecimal, octal or binary; one that does not fit goes to the
+    /// reader of numbers unchanged.
+    pub(crate) fn integer(digits: &str, radix: u32) -> Self {
+        let decimal = (radix != 10).then(|| i64::from_str_radix(digits, radix).ok()).flatten();
+        Self::Integer(decimal.map_or_else(|| digits.to_owned(), |n| n.to_string()))
+    }
+
     /// Its text in TOML; `None` for a table or a date.
     pub(crate) fn written(&self) -> Option<String> {
         match self {
@@ -170,6 +183,14 @@ impl RawValue {
             RawKind::Datetime => Value::Null,
             RawKind::Array(list) => list.iter().map(Self::json).collect(),
             RawKind::Table(table) => table.json(),
+        }
+    }
+
+    /// The entries of a table; none of any other value.
+    pub(crate) fn entries(&self) -> &[RawEntry] {
+        match &self.kind {
+            RawKind::Table(table) => &table.entries,
+            _ => &[],
         }
     }
 
@@ -223,4 +244,31 @@ fn number(text: &str) -> Value {
     let whole = text.parse::<i64>().map(Value::from);
     let finite = |text: &str| text.parse().map_or(0.0, |x: f64| x.clamp(f64::MIN, f64::MAX));
     whole.unwrap_or_else(|_| finite(text).into())
+}
+
+/// The byte at which the content of a written string begins, if the content is in it letter by
+/// letter.
+fn content_start(written: &str, content: &str) -> Option<usize> {
+    let opening = match written.as_bytes() {
+        [b'"', b'"', b'"', b'\r', b'\n', ..] | [b'\'', b'\'', b'\'', b'\r', b'\n', ..] => 5,
+        [b'"', b'"', b'"', b'\n', ..] | [b'\'', b'\'', b'\'', b'\n', ..] => 4,
+        [b'"', b'"', b'"', ..] | [b'\'', b'\'', b'\'', ..] => 3,
+        [b'"' | b'\'', ..] => 1,
+        _ => 0,
+    };
+    written.get(opening..)?.starts_with(content).then_some(opening)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::content_start;
+
+    #[test]
+    fn content_is_found_where_no_escape_changes_it() {
+        assert_eq!(content_start("\"5 K/W\"", "5 K/W"), Some(1));
+        assert_eq!(content_start("'5 K/W'", "5 K/W"), Some(1));
+        assert_eq!(content_start("\"\"\"\n5 K/W\"\"\"", "5 K/W"), Some(4));
+        assert_eq!(content_start("\"5\\u0020K/W\"", "5 K/W"), None);
+        assert_eq!(content_start("\"\"", ""), Some(1));
+    }
 }

@@ -31,7 +31,7 @@ impl<'a> Elaboration<'a> {
     pub(crate) fn inner(
         &mut self,
         section: &'static SectionDeclaration,
-        owner: Owner,
+        owner: Owner<'a>,
         entry: &'a RawEntry,
     ) -> Option<Fields<'a>> {
         Fields::of(section, owner, entry, &mut self.problems)
@@ -64,7 +64,7 @@ impl<'a> Elaboration<'a> {
     /// messages about it name the table.
     pub(crate) fn given_inside(
         &mut self,
-        owner: &Owner,
+        owner: &Owner<'_>,
         (key, raw): (&str, &RawValue),
         wanted: Wanted,
     ) -> Option<Given> {

@@ -49,7 +49,7 @@ impl Elaboration<'_> {
     /// The same for a field of a table inside a field.
     pub(crate) fn exactly_inside(
         &mut self,
-        owner: &Owner,
+        owner: &Owner<'_>,
         (key, raw): (&str, &RawValue),
         wanted: Wanted,
     ) -> Option<Value> {
@@ -74,7 +74,7 @@ impl Elaboration<'_> {
 
     pub(crate) fn setting(
         &mut self,
-        owner: &Owner,
+        owner: &Owner<'_>,
         (key, raw): (&str, &RawValue),
         ty: Type,
     ) -> Option<Setting> {
@@ -98,7 +98,7 @@ impl Elaboration<'_> {
     /// The standard deviation and time of a drift, if there is one.
     pub(crate) fn drift(
         &mut self,
-        (owner, span, code): (&Owner, &Span, &'static str),
+        (owner, span, code): (&Owner<'_>, &Span, &'static str),
         drift: (Option<Setting>, Option<Setting>),
     ) -> Option<Option<(Setting, Setting)>> {
         let (is, not) = match drift {

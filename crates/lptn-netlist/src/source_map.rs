@@ -8,7 +8,8 @@ use lptn_data::{Files, Span};
 use lptn_network::{BuildErrorKind, Field, Item, Naming, NodeId, ParameterId, TableId};
 
 use crate::imported::Places;
-use crate::raw::{RawKind, RawTable, RawValue};
+use crate::places::{FieldPlaces, Written};
+use crate::raw::{RawNetlist, RawTable, RawValue};
 
 /// The sections of elements in their order: the first of each run of one section.
 #[derive(Clone, Debug, Default)]
@@ -31,18 +32,10 @@ impl Sections {
     }
 }
 
-/// The place of a value.
-#[derive(Clone, Debug)]
-struct Written {
-    span: Span,
-    /// The byte at which the content of a string begins, if no escape changes it.
-    content: Option<usize>,
-}
-
 /// Leads from the parts of a network to the places they were read from.
 #[derive(Clone, Debug, Default)]
 pub struct SourceMap {
-    places: HashMap<(Item, Field), Written>,
+    places: FieldPlaces,
     select: Vec<Span>,
     /// The sections of conductors and of sources.
     conductors: Sections,
@@ -68,13 +61,22 @@ pub struct SourceMap {
 }
 
 impl SourceMap {
+    /// A map with room for the places of a netlist.
+    pub(crate) fn of(raw: &RawNetlist) -> Self {
+        let mut map = Self::default();
+        let elements = raw.top.entries.iter().flat_map(|section| section.value.entries());
+        // its name, its fields and a start by default
+        map.places.reserve(elements.map(|element| 2 + element.value.entries().len()).sum());
+        map
+    }
+
     /// The place of a field's value, quotes included; for [`Field::Name`] the place of the key that
     /// names the item. A node without its own `T0` has the place of the default, a part of a grid
     /// or of a path to a face that of the whole. An imported element has the places of its cells;
     /// one without a name in the file has its row for a name.
     pub fn get(&self, item: Item, field: Field) -> Option<Span> {
-        let of_whole = || self.places.get(&(self.whole(item)?, field));
-        let written = self.places.get(&(item, field)).or_else(of_whole);
+        let of_whole = || self.places.get(self.whole(item)?, field);
+        let written = self.places.get(item, field).or_else(of_whole);
         let written = written.map(|written| written.span.clone());
         written.or_else(|| self.imports.iter().find_map(|places| places.get(item, field)))
     }
@@ -117,13 +119,12 @@ impl SourceMap {
     /// The places of values that carry `±` although they are not parameters: nothing varies them.
     /// Each text appears once, in the order of the files.
     pub fn deviations_elsewhere(&self, files: &Files) -> Vec<Span> {
-        let no_parameter = |(item, field): &(Item, Field)| {
-            !matches!(item, Item::Parameter(_)) && *field != Field::Name
-        };
+        let no_parameter =
+            |item: Item, field: Field| !matches!(item, Item::Parameter(_)) && field != Field::Name;
         let carries = |span: &Span| files.at(span).contains('±') || files.at(span).contains("+-");
-        let all = self.places.iter().map(|(place, written)| (place, &written.span));
-        let found = all.filter(|(place, span)| no_parameter(place) && carries(span));
-        let mut spans: Vec<Span> = found.map(|(_, span)| span.clone()).collect();
+        let all = self.places.iter();
+        let found = all.filter(|(item, field, span)| no_parameter(*item, *field) && carries(span));
+        let mut spans: Vec<Span> = found.map(|(.., span)| span.clone()).collect();
         spans.sort_by_key(Span::order);
         spans.dedup_by(|a, b| a.is_same_text(b));
         spans
@@ -159,7 +160,7 @@ impl SourceMap {
     }
 
     pub(crate) fn insert(&mut self, item: Item, field: Field, span: Span) {
-        self.places.insert((item, field), Written { span, content: None });
+        self.places.insert(item, field, Written::at(span));
     }
 
     /// The beginning of the file, for problems without a place.
@@ -218,11 +219,7 @@ impl SourceMap {
 
     /// Notes the place of a field's value.
     pub(crate) fn value(&mut self, item: Item, field: Field, value: &RawValue) {
-        let content = match value.kind {
-            RawKind::String { start, .. } => start,
-            _ => None,
-        };
-        self.places.insert((item, field), Written { span: value.span.clone(), content });
+        self.places.insert(item, field, Written::of(value));
     }
 
     /// The place of some bytes of a field's string; the whole value if it is unknown.
@@ -238,7 +235,7 @@ impl SourceMap {
 
     /// The byte at which the content of a field's string begins, if no escape changes it.
     pub(crate) fn content(&self, item: Item, field: Field) -> Option<usize> {
-        let content = |item: Item| self.places.get(&(item, field))?.content;
+        let content = |item: Item| self.places.get(item, field)?.content();
         content(item).or_else(|| content(self.whole(item)?))
     }
 

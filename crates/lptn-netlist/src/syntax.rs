@@ -7,6 +7,7 @@ use lptn_data::{Diagnostic, FileId, Files, Span, arrange};
 
 use crate::foreign;
 use crate::format::NetlistFormat;
+use crate::plain;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::syntax_error;
 use crate::toml_1_1;
@@ -17,6 +18,15 @@ pub(crate) fn read(
     file: FileId,
     format: &NetlistFormat,
 ) -> (RawNetlist, Vec<Diagnostic>) {
+    let text = files.text(file);
+    if let Some(top) = plain::tree(text, file) {
+        return (RawNetlist { top }, Vec::new());
+    }
+    read_any(files, file, format)
+}
+
+/// The same of a text that may contain errors.
+fn read_any(files: &Files, file: FileId, format: &NetlistFormat) -> (RawNetlist, Vec<Diagnostic>) {
     let text = files.text(file);
     let (tree, errors) = DeTable::parse_recoverable(text);
     let mut reader = Reader { file, text, newer: Vec::new() };
@@ -65,9 +75,7 @@ impl Reader<'_> {
         let span = Span::new(self.file, value.span());
         let kind = match value.get_ref() {
             DeValue::String(text) => self.string(text, &span),
-            DeValue::Integer(integer) => {
-                RawKind::Integer(decimal(integer.as_str(), integer.radix()))
-            }
+            DeValue::Integer(integer) => RawKind::integer(integer.as_str(), integer.radix()),
             DeValue::Float(float) => RawKind::Float(float.as_str().to_owned()),
             DeValue::Boolean(truth) => RawKind::Boolean(*truth),
             DeValue::Datetime(_) => RawKind::Datetime,
@@ -84,46 +92,16 @@ impl Reader<'_> {
     fn string(&mut self, text: &str, span: &Span) -> RawKind {
         let written = self.text.get(span.range.clone()).unwrap_or("");
         self.newer.extend(toml_1_1::string(written, span));
-        let start = content_start(written, text).map(|offset| span.range.start + offset);
-        RawKind::String { text: text.to_owned(), start }
-    }
-}
-
-/// The byte at which the content of a written string begins, if the content is in it letter by
-/// letter.
-fn content_start(written: &str, content: &str) -> Option<usize> {
-    let quotes = ["\"\"\"\r\n", "'''\r\n", "\"\"\"\n", "'''\n", "\"\"\"", "'''", "\"", "'"];
-    let opening =
-        quotes.iter().find(|quote| written.starts_with(**quote)).map_or(0, |quote| quote.len());
-    written.get(opening..)?.starts_with(content).then_some(opening)
-}
-
-/// A TOML integer may be hexadecimal, octal or binary; one that does not fit goes to the reader of
-/// numbers unchanged.
-fn decimal(digits: &str, radix: u32) -> String {
-    match radix {
-        10 => digits.to_owned(),
-        _ => {
-            i64::from_str_radix(digits, radix).map_or_else(|_| digits.to_owned(), |n| n.to_string())
-        }
+        RawKind::string(written, text.to_owned(), span)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::content_start;
-    use crate::parse_raw;
+    use super::read_any;
     use crate::raw::RawKind;
+    use crate::{parse_raw, plain, section};
     use lptn_data::Files;
-
-    #[test]
-    fn content_is_found_where_no_escape_changes_it() {
-        assert_eq!(content_start("\"5 K/W\"", "5 K/W"), Some(1));
-        assert_eq!(content_start("'5 K/W'", "5 K/W"), Some(1));
-        assert_eq!(content_start("\"\"\"\n5 K/W\"\"\"", "5 K/W"), Some(4));
-        assert_eq!(content_start("\"5\\u0020K/W\"", "5 K/W"), None);
-        assert_eq!(content_start("\"\"", ""), Some(1));
-    }
 
     #[test]
     fn entries_keep_the_order_of_the_file() {
@@ -136,5 +114,69 @@ mod tests {
         assert_eq!(raw.top.entries[0].value.kind, RawKind::Integer("16".into()));
         let RawKind::Table(b) = &raw.top.entries[3].value.kind else { panic!("a table") };
         assert_eq!(b.entries[0].key, "y");
+    }
+
+    /// True if the file is plain; its tree is then that of `toml`.
+    fn is_plain(text: &str) -> bool {
+        let mut files = Files::new();
+        let file = files.add("a.toml", text);
+        let Some(top) = plain::tree(text, file) else { return false };
+        let (raw, diagnostics) = read_any(&files, file, section::format());
+        assert_eq!((top, diagnostics), (raw.top, vec![]), "{text}");
+        true
+    }
+
+    #[test]
+    fn a_plain_file_has_the_tree_of_toml() {
+        let texts = [
+            "",
+            "\u{feff}a = 1 # why\r\nb = 0x10\r\n",
+            "a = \"x\\u0020\\n\"\nb = ''\nc = \"\"\"\nd\"\"\"\ne = '''f'''\n",
+            "a = [1, [2.5, true], { b = 'x', c = [{}] },\n # why\n]\n",
+            "a = { b = [1,\n 2,\n], c = \"x,}\\\"\" }",
+            "[a.b.c]\nx = 1_000\n[a.b.d]\n[a.e]\n[f]\n'g.h' = -1e3\n[f.\"i j\"]\nk = inf",
+        ];
+        for text in texts {
+            assert!(is_plain(text), "{text}");
+        }
+    }
+
+    #[test]
+    fn other_files_are_left_to_toml() {
+        let texts = [
+            "a = 1\na = 2",
+            "a.b = 1",
+            "a = { b.c = 1 }",
+            "a = { b = 1, b = 2 }",
+            "a = { b = 1, }",
+            "a = { b = 1, # why\n c = 2 }",
+            "a = [{ b = [1,\n 2], }]",
+            "a = \"\\x41\"",
+            "a = 1979-05-27",
+            "[[a]]\nb = 1",
+            "[a]\n[a]",
+            "[a.b]\n[a]",
+            "a = 1\n[a]",
+            "a = {}\n[a.b]",
+            "a = [1]\n[a.b]",
+            "a = [1",
+            "a = 1 b = 2",
+            "a = \"\u{7f}\"",
+            "[]",
+            "= 1",
+        ];
+        for text in texts {
+            assert!(!is_plain(text), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_plain_file_with_a_letter_less_has_the_tree_of_toml() {
+        let text = "format = 1 # of it\n[node]\na = { C = \"5 J/K\", T0 = '25 degC' }\n[run]\n\
+            select = [\"a.T\", 'b']\n[use.x]\ncount = 2\n[use.x.set]\nk = [1.5, true]\n";
+        assert!(is_plain(text));
+        let less = |at: usize| [&text[..at], &text[at + 1..]].concat();
+        let plain = (0..text.len()).filter(|&at| is_plain(&less(at))).count();
+        assert!(plain > text.len() / 4, "{plain}");
     }
 }

@@ -1,6 +1,7 @@
 //! Reads one value: a quantity, a number or an expression, with every mistake placed to the byte.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::Context;
@@ -16,9 +17,19 @@ impl Elaboration<'_> {
     /// The value of a field; `None` after an error in it, which is reported, or in a parameter that
     /// it uses, which has been reported.
     pub(crate) fn given(&mut self, place: Place<'_>, wanted: Wanted) -> Option<Given> {
+        if let Some(program) = self.compiled.get(place, wanted) {
+            return Some(Given::Expression(Arc::clone(program)));
+        }
         let kelvin = wanted.derived.then(|| place.kelvin_for(wanted.ty)).flatten();
         let text = self.kept(kelvin.map_or_else(|| self.names.text(place, wanted.ty), Err))?;
-        self.resolve(place, text, wanted)
+        let before = self.problems.len();
+        let given = self.resolve(place, text, wanted);
+        if let Some(Given::Expression(program)) = &given
+            && self.problems.len() == before
+        {
+            self.compiled.insert(place, wanted, program);
+        }
+        given
     }
 
     /// Resolves the names of a text and checks its type.
@@ -61,7 +72,7 @@ impl Elaboration<'_> {
             Ok(program) => {
                 let moments = expression.equalities("t").into_iter().filter(|_| wanted.time);
                 self.problems.extend(moments.map(|range| moment(place, place.raw.part(&range))));
-                Some(Given::Expression(program))
+                Some(Given::Expression(Arc::new(program)))
             }
             Err(errors) => {
                 let names = (self.raw, &self.names);

@@ -7,6 +7,7 @@ use lptn_network::{
 };
 use lptn_units::{Quantity, Type};
 
+use crate::compiled::Compiled;
 use crate::csv_files::CsvFiles;
 use crate::format::NetlistFormat;
 use crate::gearbox::Gears;
@@ -38,6 +39,7 @@ pub(crate) struct Elaboration<'a> {
     pub(crate) dropped: usize,
     pub(crate) left_out: LeftOut,
     pub(crate) scales: Scales,
+    pub(crate) compiled: Compiled,
     /// Materials by name: those of the file, and those of the library that are used.
     pub(crate) known: HashMap<String, Known>,
     /// Fluids by name, in the same way.

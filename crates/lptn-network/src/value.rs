@@ -139,8 +139,14 @@ impl From<Quantity> for Input {
 
 impl From<Program> for Input {
     fn from(program: Program) -> Self {
+        Arc::new(program).into()
+    }
+}
+
+impl From<Arc<Program>> for Input {
+    fn from(program: Arc<Program>) -> Self {
         let ty = program.ty();
-        Self { value: Value::Expression(Arc::new(program)), ty, deviation: None, lump: None }
+        Self { value: Value::Expression(program), ty, deviation: None, lump: None }
     }
 }
 

@@ -6,7 +6,7 @@ use crate::dimension::Dimension;
 use crate::error::{UnitError, UnitErrorKind};
 use crate::format::rounded;
 use crate::number::Number;
-use crate::quantity::{Reading, deviation_number, skip_space, unit_at};
+use crate::quantity::{ReadUnit, Reading, deviation_number, skip_space, unit_at};
 use crate::spread::Spread;
 use crate::types::Type;
 use crate::unit_parser::superscript;
@@ -74,13 +74,13 @@ fn raised(c: char) -> bool {
 }
 
 /// `± 0.5 K` after the unit.
-pub(crate) fn trailing(text: &str, at: usize) -> Result<Deviation, UnitError> {
+pub(crate) fn trailing(text: &str, at: usize, read_unit: ReadUnit) -> Result<Deviation, UnitError> {
     let number = deviation_number(text, at)?;
     let rest = number.span.end..text.len();
     if text.get(rest.clone()).unwrap_or_default().trim() == "%" {
         return Ok(Deviation { number, measure: Measure::Percent { leading: false } });
     }
-    let own = unit_at(text, rest)?;
+    let own = unit_at(text, rest, read_unit)?;
     let measure =
         own.map_or(Measure::Missing, |(unit, _)| Measure::Own(unit.scale, unit.dimension));
     Ok(Deviation { number, measure })

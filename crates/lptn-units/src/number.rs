@@ -10,9 +10,16 @@ use crate::rational::Rational;
 #[derive(Clone, Debug)]
 pub(crate) struct Number {
     pub(crate) value: f64,
-    /// The same without rounding, if it is short enough.
-    pub(crate) exact: Option<Rational>,
     pub(crate) span: Range<usize>,
+}
+
+impl Number {
+    /// The same without rounding, if it is short enough; `text` is the text it was read from.
+    pub(crate) fn exact(&self, text: &str) -> Option<Rational> {
+        let written = text.get(self.span.clone())?;
+        let exact = Rational::from_decimal(&plain(false, written.get(sign(written).1..)?))?;
+        if self.value < 0.0 { exact.checked_neg() } else { Some(exact) }
+    }
 }
 
 /// Reads the number at byte `at`; `None` if there is none. A sign counts only if `signed`.
@@ -31,12 +38,12 @@ pub(crate) fn scan(text: &str, at: usize, signed: bool) -> Result<Option<Number>
         UnitError::new(UnitErrorKind::OutOfRange { number }, span.clone())
     };
     let value: f64 = plain.parse().map_err(|_| out_of_range())?;
-    let mantissa = plain.split(['e', 'E']).next().unwrap_or_default();
-    let vanished = value == 0.0 && mantissa.bytes().any(|b| (b'1'..=b'9').contains(&b));
-    if !value.is_finite() || vanished {
+    let mantissa = || plain.bytes().take_while(|byte| !matches!(byte, b'e' | b'E'));
+    let vanished = || mantissa().any(|byte| (b'1'..=b'9').contains(&byte));
+    if !value.is_finite() || (value == 0.0 && vanished()) {
         return Err(out_of_range());
     }
-    Ok(Some(Number { value, exact: Rational::from_decimal(&plain), span }))
+    Ok(Some(Number { value, span }))
 }
 
 /// The number in the form that every reader of numbers accepts.

@@ -1,6 +1,7 @@
 //! Quantities: a number, perhaps its standard deviation, and a unit.
 
 use std::ops::Range;
+use std::rc::Rc;
 
 use crate::deviation::{self, Deviation};
 use crate::dimension::Dimension;
@@ -103,13 +104,29 @@ pub(crate) struct Reading<'a> {
     pub(crate) text: &'a str,
     pub(crate) number: Number,
     pub(crate) deviation: Option<Deviation>,
-    pub(crate) unit: Option<(ParsedUnit, Range<usize>)>,
+    pub(crate) unit: Option<PlacedUnit>,
     /// The distribution of the deviation, if given.
     pub(crate) distribution: Option<Named>,
 }
 
+/// A unit with its place.
+type PlacedUnit = (Rc<ParsedUnit>, Range<usize>);
+
+/// Reader of a unit.
+pub(crate) type ReadUnit = fn(&str) -> Result<Rc<ParsedUnit>, UnitError>;
+
 /// Reads the text without regard to the type.
 pub(crate) fn read(text: &str) -> Result<Reading<'_>, UnitError> {
+    read_with(text, unit::parse_or_repair)
+}
+
+/// The same; an error has no corrected unit. Most texts that are no quantities are expressions,
+/// whose error as a quantity is dropped.
+pub(crate) fn read_plainly(text: &str) -> Result<Reading<'_>, UnitError> {
+    read_with(text, unit::parse)
+}
+
+fn read_with(text: &str, read_unit: ReadUnit) -> Result<Reading<'_>, UnitError> {
     let start = text.len() - text.trim_start().len();
     let distribution = distribution::named(text)?;
     let end = distribution.as_ref().map_or(text.len(), |named| named.span.start);
@@ -136,9 +153,9 @@ pub(crate) fn read(text: &str) -> Result<Reading<'_>, UnitError> {
         && let Some(at) = deviation::plus_minus(body, unit_start)
     {
         unit_end = at.start;
-        deviation = Some(deviation::trailing(body, at.end)?);
+        deviation = Some(deviation::trailing(body, at.end, read_unit)?);
     }
-    let unit = unit_at(text, unit_start..unit_end)?;
+    let unit = unit_at(text, unit_start..unit_end, read_unit)?;
     let reading = Reading { deviation, unit, ..bare(number) };
     reading.check_deviation()?;
     Ok(reading)
@@ -172,7 +189,8 @@ pub(crate) fn deviation_number(text: &str, at: usize) -> Result<Number, UnitErro
 pub(crate) fn unit_at(
     text: &str,
     part: Range<usize>,
-) -> Result<Option<(ParsedUnit, Range<usize>)>, UnitError> {
+    read_unit: ReadUnit,
+) -> Result<Option<PlacedUnit>, UnitError> {
     let written = text.get(part.clone()).unwrap_or_default();
     // `2 * m` is a number times a unit.
     let product = written.trim_start();
@@ -189,7 +207,7 @@ pub(crate) fn unit_at(
         let gap = if after.is_empty() { "" } else { " " };
         format!("{before}{space}{fix}{gap}{after}").trim().to_owned()
     };
-    let parsed = unit::parse_or_repair(unit).map_err(|e| e.shifted(start).map_fix(complete))?;
+    let parsed = read_unit(unit).map_err(|e| e.shifted(start).map_fix(complete))?;
     if parsed.names.is_empty() {
         let kind = UnitErrorKind::Syntax { wanted: "a unit", found: format!("`{unit}`") };
         return Err(UnitError::new(kind, start..start + unit.len()));

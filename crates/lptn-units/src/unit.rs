@@ -10,6 +10,7 @@ use crate::types::Type;
 use crate::unit_parser::{self, ParsedUnit};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// A unit of measurement and its conversion to SI: `si = (value + offset) * scale`.
 #[derive(Clone, PartialEq, Debug)]
@@ -81,17 +82,22 @@ impl Unit {
 }
 
 /// Reads a unit; an error has the corrected unit text, if there is one.
-pub(crate) fn parse_or_repair(text: &str) -> Result<ParsedUnit, UnitError> {
+pub(crate) fn parse_or_repair(text: &str) -> Result<Rc<ParsedUnit>, UnitError> {
+    parse(text).map_err(|error| with_fix(error, text))
+}
+
+/// Reads a unit, without a search for the unit that is meant.
+pub(crate) fn parse(text: &str) -> Result<Rc<ParsedUnit>, UnitError> {
     if text.trim().is_empty() {
         return Err(UnitError::new(UnitErrorKind::Empty, 0..text.len()));
     }
     if let Some(known) = KNOWN.with_borrow(|known| known.get(text).cloned()) {
         return Ok(known);
     }
-    let parsed = unit_parser::parse(text).map_err(|error| with_fix(error, text))?;
+    let parsed = Rc::new(unit_parser::parse(text)?);
     KNOWN.with_borrow_mut(|known| {
         if known.len() < MOST_KNOWN {
-            known.insert(text.to_owned(), parsed.clone());
+            known.insert(text.to_owned(), Rc::clone(&parsed));
         }
     });
     Ok(parsed)
@@ -99,7 +105,7 @@ pub(crate) fn parse_or_repair(text: &str) -> Result<ParsedUnit, UnitError> {
 
 thread_local! {
     /// Units that were read before: a file writes few of them many times.
-    static KNOWN: RefCell<BTreeMap<String, ParsedUnit>> = const { RefCell::new(BTreeMap::new()) };
+    static KNOWN: RefCell<BTreeMap<String, Rc<ParsedUnit>>> = const { RefCell::new(BTreeMap::new()) };
 }
 
 const MOST_KNOWN: usize = 64;

@@ -35,18 +35,20 @@ pub fn parse_value(
     expected: Option<Type>,
     is_parameter: &dyn Fn(&str) -> bool,
 ) -> Result<Written, UnitError> {
-    let as_quantity = match quantity::read(text) {
+    let plain = match quantity::read_plainly(text) {
         Ok(reading) => return settle(text, &reading, expected, is_parameter),
-        Err(error) => quantity::of_quantity(error, expected),
-    };
-    let as_expression = match Expression::parse(text) {
-        Ok(expression) if !is_word(text, &as_quantity) => {
-            return Ok(Written::Expression(expression));
-        }
-        Ok(_) => return Err(as_quantity),
         Err(error) => error,
     };
-    Err(more_helpful(text, as_quantity, as_expression, is_parameter))
+    let as_expression = match Expression::parse(text) {
+        Ok(expression) if !is_word(text, &plain) => return Ok(Written::Expression(expression)),
+        other => other.err(),
+    };
+    let error = quantity::read(text).err().unwrap_or(plain);
+    let as_quantity = quantity::of_quantity(error, expected);
+    Err(match as_expression {
+        Some(as_expression) => more_helpful(text, as_quantity, as_expression, is_parameter),
+        None => as_quantity,
+    })
 }
 
 /// `nan` and `inf` are not names.

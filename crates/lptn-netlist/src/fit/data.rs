@@ -101,19 +101,19 @@ impl<'a> Elaboration<'a> {
     /// error, which is reported.
     pub(crate) fn parameters_set(
         &mut self,
-        owner: &Owner,
+        owner: &Owner<'_>,
         entry: &'a RawEntry,
         set: &mut Vec<(String, Value)>,
     ) -> bool {
         let RawKind::Table(table) = &entry.value.kind else {
             let sample = "set = { omega = \"1000 rpm\" }";
-            self.report(wrong_shape(owner.words(), &entry.value, "a table of parameters", sample));
+            self.report(wrong_shape(&owner.words(), &entry.value, "a table of parameters", sample));
             return false;
         };
         let mut sound = true;
         for entry in &table.entries {
             let name = &entry.key;
-            if !self.is_parameter_here(owner.words(), name, &entry.key_span) {
+            if !self.is_parameter_here(&owner.words(), name, &entry.key_span) {
                 sound = false;
                 continue;
             }

@@ -205,9 +205,9 @@ impl<'a> Elaboration<'a> {
     }
 
     /// The result that a column measures.
-    pub(crate) fn fit_result(&mut self, owner: &Owner, of: &RawValue) -> Option<Measured> {
+    pub(crate) fn fit_result(&mut self, owner: &Owner<'_>, of: &RawValue) -> Option<Measured> {
         let RawKind::String { text, .. } = &of.kind else {
-            self.report(wrong_shape(owner.words(), of, "the name of a result", "\"steel.T\""));
+            self.report(wrong_shape(&owner.words(), of, "the name of a result", "\"steel.T\""));
             return None;
         };
         let given = self.given(Place { owner, key: "", raw: of }, Wanted::of_results())?;

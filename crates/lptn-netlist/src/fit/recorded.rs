@@ -86,7 +86,7 @@ impl<'a> Elaboration<'a> {
         };
         let RawKind::String { text, .. } = &raw.kind else {
             let sample = format!("{} = \"omega\"", entry.key);
-            self.report(wrong_shape(owner.words(), raw, "the name of a column", &sample));
+            self.report(wrong_shape(&owner.words(), raw, "the name of a column", &sample));
             return None;
         };
         let is_signal = |kind: Option<&(ValueKind, Span, usize)>| {

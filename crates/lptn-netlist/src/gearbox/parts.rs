@@ -31,7 +31,7 @@ impl Writer<'_, '_> {
         written: &RawEntry,
         problems: &mut Vec<Diagnostic>,
     ) {
-        let owner = Owner::element(section, &format!("{}.{}", self.stage.entry.key, written.key));
+        let owner = Owner::element(section, format!("{}.{}", self.stage.entry.key, written.key));
         if self.is_own(&written.key) {
             let message = format!("{} has a name that gearboxes use themselves", owner.words());
             let help = format!("choose another one, for example `{}_1`", written.key);
@@ -76,7 +76,7 @@ impl Writer<'_, '_> {
     /// planet.
     fn turning(
         &self,
-        (owner, written): (&Owner, &RawEntry),
+        (owner, written): (&Owner<'_>, &RawEntry),
         table: &RawTable,
         problems: &mut Vec<Diagnostic>,
     ) -> Option<(Member, String)> {
@@ -131,7 +131,7 @@ impl Writer<'_, '_> {
 
     fn member(
         &self,
-        owner: &Owner,
+        owner: &Owner<'_>,
         entry: &RawEntry,
         problems: &mut Vec<Diagnostic>,
     ) -> Option<Member> {

@@ -204,9 +204,9 @@ impl<'a> Elaboration<'a> {
         all(table.entries.iter().map(|entry| self.plan_values(&owner, entry)))
     }
 
-    fn plan_values(&mut self, owner: &Owner, entry: &'a RawEntry) -> Option<Values> {
+    fn plan_values(&mut self, owner: &Owner<'_>, entry: &'a RawEntry) -> Option<Values> {
         let name = &entry.key;
-        if !self.is_parameter_here(owner.words(), name, &entry.key_span) {
+        if !self.is_parameter_here(&owner.words(), name, &entry.key_span) {
             return None;
         }
         let ty = self.type_here(name)?;

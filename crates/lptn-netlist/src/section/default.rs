@@ -80,7 +80,12 @@ fn temperature_unit(text: &str) -> Result<Unit, Option<UnitError>> {
     Ok(Unit { ty: Type::ABSOLUTE_TEMPERATURE, ..unit })
 }
 
-fn bad_unit(owner: &Owner, raw: &RawValue, text: &str, error: Option<&UnitError>) -> Diagnostic {
+fn bad_unit(
+    owner: &Owner<'_>,
+    raw: &RawValue,
+    text: &str,
+    error: Option<&UnitError>,
+) -> Diagnostic {
     let words = owner.field("temperature_unit");
     let message = match error {
         Some(error) => format!("{words}: {error}"),

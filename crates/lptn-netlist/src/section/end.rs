@@ -70,8 +70,9 @@ impl<'a> Elaboration<'a> {
 
     /// The grid with which `name` begins, and the part that it means; `None` for other names.
     pub(crate) fn part_of_grid<'n>(&self, name: &'n str) -> Option<(&'n str, GridPart)> {
+        let part = self.names.grid_part(name)?;
         let other = self.builder.end(name).is_some_and(|end| !self.builder.is_part(end.into()));
-        if other { None } else { self.names.grid_part(name) }
+        (!other).then_some(part)
     }
 
     /// The face that a name means at `place`, also the end of a rod, whose one surface has the same

@@ -1,21 +1,22 @@
 //! The forms in which a path may be given, by their keys.
 
 use lptn_data::Diagnostic;
+use smallvec::{SmallVec, smallvec};
 
 use crate::fields::Fields;
 
 /// The forms that are begun: those with a given key that no other form takes. A given key in none
 /// of them begins the first form that takes it.
-pub(crate) fn begun(forms: &[&[&str]], given: impl Fn(&str) -> bool) -> Vec<usize> {
+pub(crate) fn begun(forms: &[&[&str]], given: impl Fn(&str) -> bool) -> SmallVec<[usize; 2]> {
     let mut touched = (0..forms.len()).filter(|&i| forms[i].iter().any(|key| given(key)));
     match (touched.next(), touched.next()) {
-        (None, _) => return Vec::new(),
-        (Some(only), None) => return vec![only],
+        (None, _) => return SmallVec::new(),
+        (Some(only), None) => return smallvec![only],
         (Some(_), Some(_)) => {}
     }
     let own = |key: &str| forms.iter().filter(|form| form.contains(&key)).count() == 1;
     let by_own = |&i: &usize| forms[i].iter().any(|key| own(key) && given(key));
-    let mut begun: Vec<usize> = (0..forms.len()).filter(by_own).collect();
+    let mut begun: SmallVec<[usize; 2]> = (0..forms.len()).filter(by_own).collect();
     for (i, form) in forms.iter().enumerate() {
         let known = |key: &str| begun.iter().any(|&other| forms[other].contains(&key));
         if form.iter().any(|key| given(key) && !known(key)) {
@@ -29,7 +30,7 @@ pub(crate) fn begun(forms: &[&[&str]], given: impl Fn(&str) -> bool) -> Vec<usiz
 /// Exactly one form, and all of it.
 pub(crate) fn check_forms(fields: &Fields<'_>, forms: &[&[&str]]) -> Option<Diagnostic> {
     let begun = begun(forms, |key| fields.get(key).is_some());
-    let begun: Vec<&[&str]> = begun.into_iter().map(|form| forms[form]).collect();
+    let begun: SmallVec<[&[&str]; 2]> = begun.into_iter().map(|form| forms[form]).collect();
     match begun.as_slice() {
         [] if fields.complete => Some(no_form(fields, forms)),
         [] => None,
@@ -83,11 +84,11 @@ mod tests {
     fn a_key_that_two_forms_share_begins_neither_beside_one_of_their_own() {
         let forms: [&[&str]; 3] = [&["R"], &["h", "area"], &["c", "n", "area"]];
         let of = |given: &[&str]| begun(&forms, |key| given.contains(&key));
-        assert_eq!(of(&["h", "area"]), [1]);
-        assert_eq!(of(&["c", "area"]), [2]);
-        assert_eq!(of(&["area"]), [1]);
-        assert_eq!(of(&["R", "area"]), [0, 1]);
-        assert_eq!(of(&["h", "n", "area"]), [1, 2]);
+        assert_eq!(of(&["h", "area"])[..], [1]);
+        assert_eq!(of(&["c", "area"])[..], [2]);
+        assert_eq!(of(&["area"])[..], [1]);
+        assert_eq!(of(&["R", "area"])[..], [0, 1]);
+        assert_eq!(of(&["h", "n", "area"])[..], [1, 2]);
         assert!(of(&[]).is_empty());
     }
 }

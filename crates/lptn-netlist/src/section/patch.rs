@@ -70,7 +70,7 @@ impl<'a> Elaboration<'a> {
     /// The patches of a grid; `None` if one of them is wrong.
     pub(super) fn patches(
         &mut self,
-        (owner, grid): (&Owner, &str),
+        (owner, grid): (&Owner<'_>, &str),
         id: GridId,
         entries: &'a [RawEntry],
     ) -> Option<()> {
@@ -86,7 +86,7 @@ impl<'a> Elaboration<'a> {
 
     fn patch(
         &mut self,
-        (owner, grid): (&Owner, &str),
+        (owner, grid): (&Owner<'_>, &str),
         id: GridId,
         entry: &'a RawEntry,
     ) -> Option<()> {

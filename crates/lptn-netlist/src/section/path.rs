@@ -4,6 +4,7 @@ use lptn_data::{Diagnostic, list};
 use lptn_laws::{FieldDeclaration, Formula, Kind, Substance};
 use lptn_network::{Context, FluidId, Input, Path};
 use lptn_units::{Expression, Quantity, Type, suggest};
+use smallvec::{SmallVec, smallvec};
 
 use crate::fields::Fields;
 use crate::place::{Place, Wanted};
@@ -13,7 +14,7 @@ use crate::section::fluid::UsedFluid;
 use crate::section::forms::{begun, check_forms};
 use crate::section::keys::{AT, LUBRICANT_OF};
 use crate::section::path_law::{
-    Read, not_a_list, of_values, types, with_article, without, written, wrong_count,
+    Read, Values, not_a_list, of_values, types, with_article, without, written, wrong_count,
 };
 use crate::section::path_section::{PathSection, PathValue};
 use crate::work::{Elaboration, stand_in};
@@ -21,16 +22,15 @@ use crate::work::{Elaboration, stand_in};
 impl<'a> Elaboration<'a> {
     /// The law of a path with its values.
     pub(crate) fn path(&mut self, fields: &Fields<'a>, path: &'static PathSection) -> Option<Path> {
-        let groups = &path.groups;
-        let forms: Vec<&[&str]> = groups.iter().map(|group| group.keys.as_slice()).collect();
+        let (groups, forms) = (&path.groups, path.forms.as_slice());
         if let Some(selector) = path.kind.declaration().selector {
             if groups.is_empty() || fields.has(selector) {
                 return self.named(fields, path, selector);
             }
             self.refuse_named(fields, path, selector);
         }
-        let group = begun(&forms, |key| fields.has(key)).first().map(|&first| &groups[first]);
-        match forms.as_slice() {
+        let group = begun(forms, |key| fields.has(key)).first().map(|&first| &groups[first]);
+        match forms {
             [keys] if path.kind.is_source() => keys.iter().for_each(|key| {
                 self.require(fields, key);
             }),
@@ -39,9 +39,9 @@ impl<'a> Elaboration<'a> {
         let fluid = fields.get("fluid").filter(|_| path.kind.is_stream());
         let fluid = fluid.map(|raw| self.used_fluid(fields, raw));
         let read = self.read(fields, path.values.iter().filter(|value| value.plain), (None, None));
-        let one = begun(&forms, |key| fields.get(key).is_some()).len() == 1;
+        let one = || begun(forms, |key| fields.get(key).is_some()).len() == 1;
         let law = of_values(&group?.laws, &read)?;
-        let idle = law.declaration().idle.iter().filter(|_| one);
+        let idle = law.declaration().idle.iter().filter(|_| one());
         idle.for_each(|(key, why)| self.refuse_keys(fields, &[key], why));
         let fluid = match fluid {
             Some(fluid) if law.declaration().carries.is_of_fluid() => {
@@ -77,8 +77,11 @@ impl<'a> Elaboration<'a> {
     /// Refuses keys that have no effect unless a word chooses a law that takes them.
     fn refuse_named(&mut self, fields: &Fields<'a>, path: &PathSection, selector: &str) {
         let named = path.values.iter().filter(|value| !value.plain).map(|value| value.field.key);
-        let keys: Vec<&str> = ["fluid"].into_iter().chain(named).collect();
-        self.refuse_keys(fields, &keys, &format!("has no effect without `{selector}`"));
+        let given = ["fluid"].into_iter().chain(named).filter(|key| fields.get(key).is_some());
+        let given: Vec<&str> = given.collect();
+        if !given.is_empty() {
+            self.refuse_keys(fields, &given, &format!("has no effect without `{selector}`"));
+        }
     }
 
     /// The law that a word chooses; fields of other laws have no effect with it.
@@ -147,14 +150,15 @@ impl<'a> Elaboration<'a> {
     }
 
     /// The given values, of a law that is known if a word chose it; stand-ins for those that are
-    /// wrong.
+    /// wrong. Fields without values are left out.
     fn read(
         &mut self,
         fields: &Fields<'a>,
         wanted: impl Iterator<Item = &'static PathValue>,
         of: (Option<Formula>, Option<UsedFluid<'a>>),
-    ) -> Vec<Read> {
-        wanted.map(|value| (value.field, self.values(fields, value, of))).collect()
+    ) -> SmallVec<[Read; 2]> {
+        let read = wanted.map(|value| (value.field, self.values(fields, value, of)));
+        read.filter(|(_, values)| !values.is_empty()).collect()
     }
 
     fn values(
@@ -162,7 +166,7 @@ impl<'a> Elaboration<'a> {
         fields: &Fields<'a>,
         value: &PathValue,
         (law, fluid): (Option<Formula>, Option<UsedFluid<'a>>),
-    ) -> Vec<Input> {
+    ) -> Values {
         let PathValue { field, types, context, .. } = value;
         let [least, most] = value.counts(law);
         let wanted = |ty: Option<Type>| Wanted::of_law(ty, *context);
@@ -173,23 +177,23 @@ impl<'a> Elaboration<'a> {
                 Substance::Fluid => fluid.and_then(|of| self.property_of_fluid(fields, field, of)),
                 Substance::Lubricant => self.property_of_oil(fields, (field.key, field.ty)),
             };
-            return vec![found.unwrap_or_else(|| stand_in(field.ty))];
+            return smallvec![found.unwrap_or_else(|| stand_in(field.ty))];
         }
         if let Some(raw) = raw.filter(|_| !field.words.is_empty())
             && self.misspelt(fields, field, raw)
         {
-            return vec![stand_in(field.ty)];
+            return smallvec![stand_in(field.ty)];
         }
         if let Some((word, expression)) = word_of(fields, field) {
             let found = self.meant_by(fields, field, (word, expression));
-            return vec![found.unwrap_or_else(|| stand_in(field.ty))];
+            return smallvec![found.unwrap_or_else(|| stand_in(field.ty))];
         }
         let Some(raw) = raw else {
             let area = fields.area.clone().filter(|_| field.key == "area");
             return area.into_iter().collect();
         };
         if let (RawKind::Array(items), 2..) = (&raw.kind, most) {
-            let values: Vec<Input> = items
+            let values: Values = items
                 .iter()
                 .map(|raw| self.input_at(fields, field.key, raw, wanted(Some(field.ty))))
                 .collect();
@@ -198,14 +202,14 @@ impl<'a> Elaboration<'a> {
             }
             let told = if least > 1 { not_a_list } else { wrong_count };
             self.report(told(fields, (field, most), raw, values.len()));
-            return Vec::new();
+            return Values::new();
         }
         if least > 1 {
             self.report(not_a_list(fields, (field, most), raw, 1));
-            return Vec::new();
+            return Values::new();
         }
         match types.as_slice() {
-            [_] => vec![self.input_at(fields, field.key, raw, wanted(Some(field.ty)))],
+            [_] => smallvec![self.input_at(fields, field.key, raw, wanted(Some(field.ty)))],
             types => {
                 let place = Place { owner: &fields.owner, key: field.key, raw };
                 self.of_types(place, wanted(None), types).into_iter().collect()
@@ -294,15 +298,16 @@ impl<'a> Elaboration<'a> {
         &mut self,
         fields: &Fields<'a>,
         law: Formula,
-        read: Vec<Read>,
+        mut read: SmallVec<[Read; 2]>,
         fluid: Option<FluidId>,
     ) -> Option<Path> {
         let declared = law.declaration();
         let mut values: Vec<Input> = Vec::with_capacity(declared.fields.len());
         for same in declared.fields.chunk_by(|a, b| a.key == b.key) {
-            let found = read.iter().find(|(field, _)| field.key == same[0].key);
-            match (found.map_or(&[][..], |(_, values)| values), same[0].default) {
-                (given, _) if given.len() == same.len() => values.extend_from_slice(given),
+            let found = read.iter_mut().find(|(field, _)| field.key == same[0].key);
+            let given = found.map(|(_, values)| std::mem::take(values)).unwrap_or_default();
+            match (given, same[0].default) {
+                (given, _) if given.len() == same.len() => values.extend(given),
                 (_, Some(value)) => {
                     values.push(Quantity { value, deviation: None, ty: same[0].ty }.into())
                 }

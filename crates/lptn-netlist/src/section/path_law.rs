@@ -4,12 +4,16 @@ use lptn_data::Diagnostic;
 use lptn_laws::{FieldDeclaration, Formula, Kind};
 use lptn_network::Input;
 use lptn_units::Type;
+use smallvec::SmallVec;
 
 use crate::fields::Fields;
 use crate::raw::RawValue;
 
-/// A field with its values: none, one, or those of a list.
-pub(super) type Read = (&'static FieldDeclaration, Vec<Input>);
+/// The values of a field: none, one, or those of a list.
+pub(super) type Values = SmallVec<[Input; 1]>;
+
+/// A field with its values.
+pub(super) type Read = (&'static FieldDeclaration, Values);
 
 /// The least and the largest number of values of a key in laws of a kind that take it.
 pub(super) fn counts(kind: Kind, key: &str) -> [usize; 2] {
@@ -44,12 +48,13 @@ pub(super) fn with_article(name: &str) -> String {
 /// The law of a group that takes these numbers and types of values.
 pub(super) fn of_values(laws: &[Formula], read: &[Read]) -> Option<Formula> {
     let fits = |law: &&Formula| {
-        read.iter().filter(|(_, values)| !values.is_empty()).all(|(field, values)| {
-            let own: Vec<&FieldDeclaration> =
-                law.declaration().fields.iter().filter(|own| own.key == field.key).collect();
-            own.is_empty()
-                || own.len() == values.len()
-                    && own.iter().zip(values).all(|(own, v)| v.ty().conforms_to(own.ty))
+        read.iter().all(|(field, values)| match count(**law, field.key) {
+            0 => true,
+            most => {
+                let own = law.declaration().fields.iter().filter(|own| own.key == field.key);
+                let mut pairs = own.zip(values);
+                most == values.len() && pairs.all(|(own, value)| value.ty().conforms_to(own.ty))
+            }
         })
     };
     laws.iter().find(fits).copied()

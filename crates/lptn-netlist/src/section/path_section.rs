@@ -16,6 +16,8 @@ pub(crate) struct PathSection {
     pub(crate) section: SectionDeclaration,
     pub(crate) kind: Kind,
     pub(super) groups: Vec<Group>,
+    /// The keys that each group needs.
+    pub(super) forms: Vec<&'static [&'static str]>,
     /// Its values, each key once.
     pub(super) values: Vec<PathValue>,
 }
@@ -23,7 +25,7 @@ pub(crate) struct PathSection {
 impl PathSection {
     /// The keys that each form of it needs.
     pub(crate) fn forms(&self) -> impl Iterator<Item = &[&'static str]> {
-        self.groups.iter().map(|group| group.keys.as_slice())
+        self.forms.iter().copied()
     }
 
     /// The keys of its values.
@@ -76,7 +78,9 @@ fn path_section(kind: Kind) -> PathSection {
         example: declared.example,
         elsewhere: declared.elsewhere,
     };
-    PathSection { section, kind, groups: groups(kind), values }
+    let groups = groups(kind);
+    let forms = groups.iter().map(|group| &*group.keys.clone().leak()).collect();
+    PathSection { section, kind, groups, forms, values }
 }
 
 /// The ends or the heated nodes, then its fields. Substances come before their properties, `fluid`

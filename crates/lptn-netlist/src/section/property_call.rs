@@ -164,7 +164,7 @@ impl<'a> Elaboration<'a> {
         self.functions(called).find(|known| *known == property)?;
         // the section itself reports problems of the table
         let reported = self.problems.len();
-        let owner = Owner::element(section.name, name);
+        let owner = Owner::element(section.name, name.to_owned());
         let fields = Fields::of(section, owner, entry, &mut self.problems);
         let symbol = fields.and_then(|fields| self.property_symbol(&fields, property, ty));
         self.problems.truncate(reported);

@@ -197,7 +197,7 @@ impl<'a> Elaboration<'a> {
 
     fn requirement(
         &mut self,
-        owner: &Owner,
+        owner: &Owner<'_>,
         (raw, steady): (&'a RawValue, bool),
     ) -> Option<Requirement> {
         let place = Place { owner, key: "require", raw };

@@ -63,7 +63,7 @@ impl<'a> Elaboration<'a> {
                     false => ("a range or a list of values", AXIS.example),
                 };
                 let sample = format!("{} = {example}", entry.key);
-                self.report(wrong_shape(owner.words(), &entry.value, wanted, &sample));
+                self.report(wrong_shape(&owner.words(), &entry.value, wanted, &sample));
                 None
             }
         };
@@ -96,7 +96,7 @@ impl<'a> Elaboration<'a> {
 
     fn axis_list(
         &mut self,
-        owner: &Owner,
+        owner: &Owner<'_>,
         (items, raw): (&'a [RawValue], &'a RawValue),
         ty: Type,
     ) -> Option<AxisValues> {
@@ -114,7 +114,7 @@ impl<'a> Elaboration<'a> {
 
     fn axis_range(
         &mut self,
-        owner: Owner,
+        owner: Owner<'a>,
         entry: &'a RawEntry,
         (ty, method): (Option<Type>, SweepMethod),
     ) -> Option<AxisValues> {

@@ -133,7 +133,7 @@ impl<'r> Template<'r> {
         entry: &'r RawEntry,
         problems: &mut Vec<Diagnostic>,
     ) -> Option<Parameter<'r>> {
-        let owner = Owner::element("parameter", &format!("{}.{}", self.name(), entry.key));
+        let owner = Owner::element("parameter", format!("{}.{}", self.name(), entry.key));
         let text = match &entry.value.kind {
             RawKind::Table(_) => {
                 let fields = Fields::of(&OPEN_PARAMETER, owner, entry, problems)?;
@@ -155,7 +155,7 @@ impl<'r> Template<'r> {
             RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => text,
             _ => {
                 let example = "m = \"0.2 kg\"";
-                problems.push(wrong_shape(owner.words(), &entry.value, "a value", example));
+                problems.push(wrong_shape(&owner.words(), &entry.value, "a value", example));
                 return None;
             }
         };

@@ -28,7 +28,7 @@ pub(super) fn expand(
             table.entries = entries.into_iter().flat_map(|entry| work.limit(entry)).collect();
         } else if section.key == "source" {
             table.entries.retain_mut(|entry| work.source(entry));
-        } else if is_path(&section.key) {
+        } else if is_path(&section.key) && table.entries.iter().any(joins_patterns) {
             let entries = std::mem::take(&mut table.entries);
             table.entries = entries.into_iter().flat_map(|entry| work.path(entry)).collect();
         }
@@ -39,6 +39,16 @@ pub(super) fn expand(
 /// True for a section of elements between two ends.
 fn is_path(section: &str) -> bool {
     PATHS.iter().any(|path| path.section.name == section && !path.kind.is_source())
+}
+
+/// True for a path with a pattern at an end.
+fn joins_patterns(entry: &RawEntry) -> bool {
+    ["from", "to"].into_iter().any(|key| field(entry, key).is_some_and(is_pattern))
+}
+
+fn is_pattern(value: &RawValue) -> bool {
+    let RawKind::String { text, .. } = &value.kind else { return false };
+    text.contains(STAR) || text.contains(BEFORE)
 }
 
 /// A pattern with its `[*-1]` as `[*]`.
@@ -98,9 +108,9 @@ impl Patterns<'_> {
     /// `side` from `cell[*-1].body` to `cell[*].body` becomes `side[2]`, `side[3]` and so on.
     fn path(&mut self, entry: RawEntry) -> Vec<RawEntry> {
         let ends = ["from", "to"].map(|key| {
-            let value = field(&entry, key)?;
+            let value = field(&entry, key).filter(|value| is_pattern(value))?;
             let RawKind::String { text, .. } = &value.kind else { return None };
-            (text.contains(STAR) || text.contains(BEFORE)).then(|| (text.clone(), value.clone()))
+            Some((text.clone(), value.clone()))
         });
         let given: Vec<&(String, RawValue)> = ends.iter().flatten().collect();
         let Some((_, place)) = given.first() else { return vec![entry] };

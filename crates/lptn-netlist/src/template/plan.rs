@@ -263,7 +263,7 @@ fn example(name: &str) -> String {
 fn unknown(
     (template, entry): (&Template<'_>, &RawEntry),
     (what, known): (&str, &[&str]),
-    (owner, does): (&Owner, &str),
+    (owner, does): (&Owner<'_>, &str),
     give: &str,
 ) -> Diagnostic {
     let (name, words) = (&entry.key, owner.words());

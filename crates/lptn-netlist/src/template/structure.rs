@@ -1,5 +1,6 @@
 //! The result of the templates of a netlist: its instances, and the meaning of names inside them.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use foldhash::{HashMap, HashSet};
@@ -158,9 +159,9 @@ impl Structure {
     }
 
     /// The full name of a name at `place`; `None` for a foreign name in a template.
-    pub(crate) fn inside(&self, place: &Span, name: &str) -> Option<String> {
-        let own = || self.template_at(place).is_none().then(|| name.to_owned());
-        self.meaning(place, name).or_else(own)
+    pub(crate) fn inside<'n>(&self, place: &Span, name: &'n str) -> Option<Cow<'n, str>> {
+        let own = || self.template_at(place).is_none().then_some(Cow::Borrowed(name));
+        self.meaning(place, name).map(Cow::Owned).or_else(own)
     }
 
     /// The template that contains a place.

@@ -156,7 +156,7 @@ impl Parser<'_> {
                 self.at += 1;
                 node
             }
-            _ => Node::Number { value: number.value, exact: number.exact },
+            _ => Node::Number { value: number.value, exact: number.exact(self.text) },
         };
         self.finish(node, start)
     }
@@ -259,8 +259,7 @@ fn with_sign(number: Number, sign: Operator) -> Number {
     if sign == Operator::Add {
         return number;
     }
-    let exact = number.exact.and_then(|exact| exact.checked_neg());
-    Number { value: -number.value, exact, span: number.span }
+    Number { value: -number.value, span: number.span }
 }
 
 /// The lexer has refused temperatures below absolute zero; rounding may still put 0 K a little
