@@ -136,7 +136,7 @@ impl<'a> Moment<'a> {
 
     /// Completes `x` in 1/J by the values of the massless nodes, and writes the rows of the states of
     /// `J^T x + weights`. Constant conductances are symmetric: their flows are differences, so that
-    /// small losses beside large conductances keep their digits.
+    /// small losses keep their digits if conductances are large.
     pub(super) fn balance(
         &mut self,
         weights: &[f64],

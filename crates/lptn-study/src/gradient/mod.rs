@@ -2,7 +2,7 @@
 //!
 //! The reports and the parameters are those of a sweep. A steady state has an adjoint, so that its
 //! gradient costs one more solution. So has a run, through its events: each result costs as much as
-//! six to nine runs. A network without capacities has forward sensitivities. A maximum changes as
+//! one to six runs. A network without capacities has forward sensitivities. A maximum changes as
 //! the quantity does at its time, an integral as the integral of the derivative.
 //!
 //! A report becomes a limit of the network with the bound 0: limits have a time at which they are
@@ -74,10 +74,12 @@ impl SweepTask {
         values: &[f64],
         reports: usize,
     ) -> Result<(Network, Vec<ParameterId>), GradientError> {
-        let mut parameters = self.network().given();
+        // without the reports of the study, which limits replace
+        let own = &self.netlist().network;
+        let mut parameters = own.given();
         let ids: Vec<ParameterId> = self.cases().parameters().collect();
         ids.iter().zip(values).for_each(|(id, &value)| parameters.set(*id, value));
-        let network = self.network().with(&parameters)?;
+        let network = own.with(&parameters)?;
         Ok((network.requiring(self.study().reports.iter().take(reports).map(limit)), ids))
     }
 
