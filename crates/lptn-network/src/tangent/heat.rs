@@ -6,7 +6,7 @@ use lptn_units::Scalar;
 
 use super::reads::{Lanes, each, free};
 use super::{Known, Pass, Tangents};
-use crate::evaluation::{Evaluation, PASS, Slope};
+use crate::evaluation::{Evaluation, Slope};
 use crate::id::{ConductorId, Field, Item};
 use crate::input_error::InputError;
 use crate::law::{At, ConductorFlow, Received};
@@ -201,7 +201,8 @@ impl Pass {
         let Self { slots, stack, boundaries, reads, .. } = self;
         let nodes = network.nodes().len();
         let moves = |vertex: usize| {
-            vertex.checked_sub(nodes).is_some_and(|k| boundaries[k].derivatives != [0.0; PASS])
+            let boundary = vertex.checked_sub(nodes).map(|k| &boundaries[k]);
+            boundary.is_some_and(|dual| dual.derivatives.iter().any(|d| d.abs() > 0.0))
         };
         for path in &reads.conductors {
             let ends = path.ends;
