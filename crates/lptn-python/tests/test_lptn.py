@@ -155,6 +155,11 @@ class Results(unittest.TestCase):
         for wrong in [{}, {"P": [1, 2], "G": [1]}]:
             self.assertRaises(TypeError, net.sweep, wrong)
         self.assertRaises(TypeError, net.sweep, over="run")
+        # the netlist has a study of the name that frames have
+        own = 'method = "grid", over = "steady", axes = { P = ["1 W"] }, report = { T = "block.T" }'
+        for study in ["[sweep.frame]\n" + own.replace(", ", "\n"), f"[sweep]\nframe = {{ {own} }}"]:
+            found = lptn.parse(f"{BODY}\n{study}\n", G="4 W/K").sweep({"P": [20, 30]})
+            np.testing.assert_allclose(found["block_T"], [30, 32.5], rtol=1e-9)
         # a file next to the netlist is still found, and the frame need not be a dictionary
         curves = lptn.load(NETWORKS / "gearbox.toml").sweep(Frame(G_out=[4.0]))
         np.testing.assert_allclose(curves["steel_T"], [27.2 + 220.6 / 4], rtol=1e-9)

@@ -31,18 +31,22 @@ def sweep(
     """Solves the rows of a frame: a DataFrame, or a dictionary of columns."""
     one_of("over", over, ("steady", "run", "periodic"))
     columns = _columns(network, frame)
-    lines = ["", "[sweep.frame]", 'method = "csv"', f"file = {json.dumps(CANDIDATES)}"]
-    lines += [f"over = {json.dumps(over)}", "[sweep.frame.report]"]
+    text, name = network.text
+    study = "frame"
+    # the netlist may have a study of this name
+    while study in text:
+        study += "_"
+    lines = ["", f"[sweep.{study}]", 'method = "csv"', f"file = {json.dumps(CANDIDATES)}"]
+    lines += [f"over = {json.dumps(over)}", f"[sweep.{study}.report]"]
     named = report or _temperatures(network, over)
     if not isinstance(named, Mapping):
         raise TypeError('report takes names and results: {"hot": "steel.T"}')
-    lines += [f"{name} = {json.dumps(text)}" for name, text in named.items()]
-    text, name = network.text
+    lines += [f"{key} = {json.dumps(of)}" for key, of in named.items()]
     try:
         whole = (name, text + "\n".join(lines) + "\n")
         netlist = _lptn.Netlist.with_candidates(whole, CANDIDATES, columns, network._set)
         with shown(words) as words:
-            answer = netlist.ask("sweep", [], {**words, "name": "frame"})
+            answer = netlist.ask("sweep", [], {**words, "name": study})
     except Error as error:
         error.within(text.count("\n") + 1)
         raise
