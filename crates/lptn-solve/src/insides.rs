@@ -1,6 +1,6 @@
 //! Expressions of results that are not part of a network, over the rows of a run.
 //!
-//! They may bend and jump at times of their own, on one side of which each row is read.
+//! They may bend and jump at times that the run ignores. Each row is read on one side of them.
 
 use std::borrow::Cow;
 

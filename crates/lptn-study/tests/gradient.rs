@@ -135,7 +135,7 @@ fn rise(time: f64) -> [f64; 3] {
 }
 
 /// A quantity that compares the time, or reads a signal that drives nothing, jumps and bends at
-/// times of its own. With k = G/C, the integral of the rise until t is P/G (t - (1 - exp(-k t))/k).
+/// times that the run ignores. With k = G/C, the integral of the rise until t is P/G (t - (1 - exp(-k t))/k).
 #[test]
 fn a_quantity_has_jumps_and_bends_of_its_own() {
     let duty = "duty = { t = [\"0 s\", \"300 s\"], v = [1, 0], interp = \"previous\", after_end = \"hold\" }\n";

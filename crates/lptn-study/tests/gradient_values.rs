@@ -8,7 +8,7 @@ use lptn_study::sweep::{Cases, SweepTask};
 /// Steps of P and G as parts of themselves.
 const STEP: f64 = 1e-3;
 
-/// Quantities that jump, bend or have a pulse at times of their own.
+/// Quantities that jump, bend or have a pulse at times that the run ignores.
 const QUANTITIES: [&str; 12] = [
     "block.T - air.T",
     "cooling.Q",

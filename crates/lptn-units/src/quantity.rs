@@ -120,8 +120,8 @@ pub(crate) fn read(text: &str) -> Result<Reading<'_>, UnitError> {
     read_with(text, unit::parse_or_repair)
 }
 
-/// The same; an error has no corrected unit. Most texts that are no quantities are expressions,
-/// whose error as a quantity is dropped.
+/// The same; an error has no corrected unit. Most texts that are not quantities are
+/// expressions, whose error as a quantity is dropped.
 pub(crate) fn read_plainly(text: &str) -> Result<Reading<'_>, UnitError> {
     read_with(text, unit::parse)
 }

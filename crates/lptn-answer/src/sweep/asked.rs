@@ -49,8 +49,7 @@ pub struct Column {
 impl Column {
     /// `name [unit]`.
     pub fn header(&self) -> String {
-        let unit = if self.unit.text == "1" { "-" } else { &self.unit.text };
-        format!("{} [{unit}]", self.name)
+        lptn_solve::Column::heading(&self.name, self.unit_text())
     }
 
     /// The unit in a word: `1` for plain numbers.
@@ -177,16 +176,26 @@ impl SweepAsked {
         self.shard.map_or(whole.clone(), |shard| whole.join(shard.folder()))
     }
 
+    /// Name and unit of every column in the order of the file; words have no unit.
+    pub(super) fn declared(&self) -> Vec<(&str, Option<&str>)> {
+        let numbers = self.columns.iter();
+        let mut all = vec![("case", Some("1"))];
+        all.extend(numbers.map(|column| (column.name.as_str(), Some(column.unit_text()))));
+        if self.is_judged() {
+            all.extend(JUDGED.map(|name| (name, None)));
+        }
+        all.extend(self.ranged.then_some(("outside", Some("1"))));
+        all.push(("failed", None));
+        all
+    }
+
     /// The cells of the first line.
     pub fn header(&self) -> Vec<String> {
-        let mut header = vec!["case [-]".to_owned()];
-        header.extend(self.columns.iter().map(Column::header));
-        if self.is_judged() {
-            header.extend(JUDGED.map(str::to_owned));
-        }
-        header.extend(self.ranged.then(|| "outside [-]".to_owned()));
-        header.push("failed".into());
-        header
+        let heading = |(name, unit): (&str, Option<&str>)| match unit {
+            Some(unit) => lptn_solve::Column::heading(name, unit),
+            None => name.to_owned(),
+        };
+        self.declared().into_iter().map(heading).collect()
     }
 
     /// The first line of the file, with its end.

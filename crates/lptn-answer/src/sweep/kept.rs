@@ -2,9 +2,9 @@
 
 use std::borrow::Cow;
 
-use lptn_report::{CsvLines, RowColumn};
+use lptn_report::{Cells, CsvLines, RowColumn};
 
-use super::asked::{JUDGED, SweepAsked};
+use super::asked::SweepAsked;
 use super::row::{Row, RowShape};
 
 /// A form that takes the rows of a part of a sweep, in order.
@@ -104,22 +104,25 @@ impl KeptRows {
     }
 
     /// The columns, in the order of the file.
-    pub(super) fn columns(&self, asked: &SweepAsked) -> Vec<RowColumn<'_>> {
-        let [limits, worst] = JUDGED;
+    pub(super) fn columns<'s>(&'s self, asked: &SweepAsked) -> Vec<RowColumn<'s>> {
         let shape = asked.shape();
-        let none = Vec::new();
-        let numbers = asked.columns.iter().enumerate().map(|(place, column)| {
-            let values = self.numbers.get(place).map_or(Cow::from(none.clone()), Cow::from);
-            RowColumn::numbers(column.name.clone(), column.unit_text(), values)
-        });
-        let mut columns = vec![RowColumn::counts("case", &self.cases)];
-        columns.extend(numbers);
+        // without rows there are no columns yet
+        let numbers = (0..asked.columns.len())
+            .map(|place| Cells::Numbers(self.numbers.get(place).map_or(Cow::default(), Cow::from)));
+        let words = |words: &'s [String]| Cells::Words(words.into());
+        let mut cells = vec![Cells::Counts((&self.cases).into())];
+        cells.extend(numbers);
         if shape.judged {
-            columns.push(RowColumn::words(limits, &self.limits));
-            columns.push(RowColumn::words(worst, &self.worst));
+            cells.extend([words(&self.limits), words(&self.worst)]);
         }
-        columns.extend(shape.ranged.then(|| RowColumn::counts("outside", &self.outside)));
-        columns.push(RowColumn::words("failed", &self.failed));
-        columns
+        cells.extend(shape.ranged.then(|| Cells::Counts((&self.outside).into())));
+        cells.push(words(&self.failed));
+        let named = asked.declared().into_iter().zip(cells);
+        let column = |((name, unit), cells): ((&str, Option<&str>), Cells<'s>)| RowColumn {
+            name: name.to_owned(),
+            unit: unit.map(str::to_owned),
+            cells,
+        };
+        named.map(column).collect()
     }
 }

@@ -338,15 +338,7 @@ impl Page for SweepAnswer {
 
 impl SweepAnswer {
     fn columns(&self) -> Vec<Value> {
-        let one = |name: &str, unit: Option<&str>| json!({ "name": name, "unit": unit });
-        let mut columns = vec![one("case", Some("1"))];
-        let numbers = self.asked.columns.iter();
-        columns.extend(numbers.map(|column| one(&column.name, Some(column.unit_text()))));
-        if self.asked.is_judged() {
-            columns.extend(JUDGED.map(|name| one(name, None)));
-        }
-        columns.extend(self.asked.ranged.then(|| one("outside", Some("1"))));
-        columns.push(one("failed", None));
-        columns
+        let one = |(name, unit): (&str, Option<&str>)| json!({ "name": name, "unit": unit });
+        self.asked.declared().into_iter().map(one).collect()
     }
 }

@@ -89,7 +89,7 @@ impl Asked<'_> {
         Ok(aim)
     }
 
-    /// True if the margin is larger at the second moment by more than the error of the run.
+    /// True if the margin is larger at the second moment by more than rounding.
     fn rises(&self, moment: &mut Moment<'_>, aims: [Aim; 2]) -> Result<bool, BackwardError> {
         let mut margins = [0.0; 2];
         for (margin, aim) in margins.iter_mut().zip(aims) {
