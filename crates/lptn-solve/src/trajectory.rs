@@ -116,15 +116,20 @@ impl Trajectory {
         self.stretches.push(Stretch { inside, positions, pieces: Vec::new(), end: None });
     }
 
-    /// The times in s at which a piece of a polynomial needs its values.
-    pub(crate) fn times(from: f64, to: f64) -> [f64; curve::POINTS] {
-        curve::times(from, to)
+    /// The times in s at which a piece of a polynomial of a degree needs its values.
+    pub(crate) fn times(span: (f64, f64), degree: usize) -> impl Iterator<Item = f64> {
+        curve::times(span, degree)
     }
 
-    /// Adds a piece with its values at those times, and the temperatures in K of massless nodes at
-    /// its end.
-    pub(crate) fn add(&mut self, span: (f64, f64), values: Vec<f64>, branch: Vec<f64>) {
-        self.push(span, Curve::Points(values), branch);
+    /// Adds a piece with its values at as many of those times, and the temperatures in K of the
+    /// massless nodes at its end.
+    pub(crate) fn add(
+        &mut self,
+        span: (f64, f64),
+        (values, points): (Vec<f64>, usize),
+        branch: Vec<f64>,
+    ) {
+        self.push(span, Curve::Points(values, points), branch);
     }
 
     /// Adds a piece of a series.
@@ -255,19 +260,23 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_polynomial_of_the_fifth_degree_is_exact() {
-        let of = |t: f64| [1.0 - t + 2.0 * t.powi(5), t.powi(3)];
-        let mut known = Trajectory::default();
-        known.enter(3.0, None);
-        let values = Trajectory::times(2.0, 4.0).into_iter().flat_map(of).collect();
-        known.add((2.0, 4.0), values, Vec::new());
-        let stretch = &known.stretches[0];
-        assert_eq!(stretch.span(), (2.0, 4.0));
-        for time in [2.0, 2.1, 3.0, 3.7, 4.0] {
-            let mut found = [0.0; 2];
-            stretch.at(time, &mut found);
-            for (found, expected) in found.into_iter().zip(of(time)) {
-                assert!((found - expected).abs() < 1e-12 * expected.abs(), "{time}: {found}");
+    fn polynomials_up_to_the_fifth_degree_are_exact() {
+        for degree in 1..=5 {
+            let of = |t: f64| [1.0 - t + 2.0 * t.powi(degree), t.powi(degree - 1)];
+            let mut known = Trajectory::default();
+            known.enter(3.0, None);
+            let times = Trajectory::times((2.0, 4.0), degree as usize);
+            let values: Vec<f64> = times.flat_map(of).collect();
+            let points = values.len() / 2;
+            known.add((2.0, 4.0), (values, points), Vec::new());
+            let stretch = &known.stretches[0];
+            assert_eq!(stretch.span(), (2.0, 4.0));
+            for time in [2.0, 2.1, 3.0, 3.7, 4.0] {
+                let mut found = [0.0; 2];
+                stretch.at(time, &mut found);
+                for (found, expected) in found.into_iter().zip(of(time)) {
+                    assert!((found - expected).abs() < 1e-12 * expected.abs(), "{time}: {found}");
+                }
             }
         }
     }

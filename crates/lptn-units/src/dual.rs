@@ -167,6 +167,17 @@ impl<const N: usize> Scalar for Dual<N> {
     }
 
     #[inline]
+    fn plus(mut self, term: f64) -> Self {
+        self.value += term;
+        self
+    }
+
+    #[inline]
+    fn scaled(self, factor: f64) -> Self {
+        self.chain(self.value * factor, factor)
+    }
+
+    #[inline]
     fn chain(self, value: f64, slope: f64) -> Self {
         if slope.is_finite() {
             // the sum with 0 is never -0

@@ -59,6 +59,16 @@ pub trait Scalar:
     fn powf(self, exponent: f64) -> Self;
     /// Real power of a base that is not negative, both varying.
     fn pow(self, exponent: Self) -> Self;
+    /// The sum with a constant.
+    #[must_use]
+    fn plus(self, term: f64) -> Self {
+        self + Self::from_f64(term)
+    }
+    /// The product with a constant.
+    #[must_use]
+    fn scaled(self, factor: f64) -> Self {
+        self * Self::from_f64(factor)
+    }
     /// A function of this number, from its value and its slope here.
     fn chain(self, value: f64, slope: f64) -> Self;
     /// A function of this and another number, from its value and its slopes along each.

@@ -343,14 +343,14 @@ pub(crate) fn seeded(temperature: f64, position: usize, first: usize) -> Slope {
     }
 }
 
-pub(crate) fn name<S: Scalar>(slots: &mut [S], dependence: &Dependence, at: &dyn Fn(usize) -> S) {
+pub(crate) fn name<S: Scalar>(slots: &mut [S], dependence: &Dependence, at: &impl Fn(usize) -> S) {
     for &(slot, position) in &dependence.named {
         slots[slot as usize] = at(position);
     }
 }
 
 /// Puts the temperatures that a conductor's values may read into their slots.
-pub(crate) fn place<S: Scalar>(slots: &mut [S], dependence: &Dependence, at: &dyn Fn(usize) -> S) {
+pub(crate) fn place<S: Scalar>(slots: &mut [S], dependence: &Dependence, at: &impl Fn(usize) -> S) {
     name(slots, dependence, at);
     let (from, to) = (at(0), at(1));
     let mean = (from + to) * S::from_f64(0.5);

@@ -236,10 +236,11 @@ impl Pass {
                         path.seeds.iter().for_each(|seeds| seeds.seed(k, &mut dual));
                         dual
                     };
-                    place(slots, &dependence, &seeded);
+                    let ends = [seeded(0), seeded(1)];
+                    place(slots, &dependence, &|k| ends.get(k).map_or_else(|| seeded(k), |t| *t));
                     let along = network.along(path.id);
                     let at = At { by_parameters: true, ..At::path((slots, stack), along) };
-                    network.received(conductor, at, seeded(0), seeded(1))
+                    network.received(conductor, at, ends[0], ends[1])
                 }
             };
             let received = received

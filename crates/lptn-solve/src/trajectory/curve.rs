@@ -4,15 +4,14 @@ use std::sync::Arc;
 
 use lptn_integrate::SeriesStep;
 
-/// Values of each state that determine the interpolant of a multistep method, a polynomial of the
-/// fifth degree at most.
-pub(super) const POINTS: usize = 6;
+/// The highest degree of the interpolant of a multistep method.
+const HIGHEST: usize = 5;
 
 /// The states in a step, or in a part of one.
 #[derive(Clone, Debug)]
 pub(super) enum Curve {
-    /// A polynomial: point by point the variables of all states.
-    Points(Vec<f64>),
+    /// A polynomial: point by point the variables of all states, and the number of points.
+    Points(Vec<f64>, usize),
     /// A step of the one-step method, shared by its parts.
     Series(Arc<Series>),
 }
@@ -28,23 +27,22 @@ pub(crate) struct Series {
 }
 
 /// Places on (0, 1): Chebyshev points of the second kind.
-fn place(k: usize) -> f64 {
-    0.5 - 0.5 * (std::f64::consts::PI * k as f64 / (POINTS - 1) as f64).cos()
+fn place(k: usize, points: usize) -> f64 {
+    0.5 - 0.5 * (std::f64::consts::PI * k as f64 / (points - 1) as f64).cos()
 }
 
-/// The times in s at which a polynomial needs its values.
-pub(super) fn times(from: f64, to: f64) -> [f64; POINTS] {
-    let mut times = [0.0; POINTS];
-    times.iter_mut().enumerate().for_each(|(k, time)| *time = from + place(k) * (to - from));
-    times[POINTS - 1] = to;
-    times
+/// The times in s at which a polynomial of a degree needs its values.
+pub(super) fn times((from, to): (f64, f64), degree: usize) -> impl Iterator<Item = f64> {
+    let points = degree.clamp(1, HIGHEST) + 1;
+    let inside = (0..points - 1).map(move |k| from + place(k, points) * (to - from));
+    inside.chain([to])
 }
 
 impl Curve {
     pub(super) fn series(&self) -> Option<&Arc<Series>> {
         match self {
             Self::Series(series) => Some(series),
-            Self::Points(_) => None,
+            Self::Points(..) => None,
         }
     }
 
@@ -58,7 +56,7 @@ impl Curve {
 
     pub(super) fn states(&self) -> usize {
         match self {
-            Self::Points(values) => values.len() / POINTS,
+            Self::Points(values, points) => values.len() / points,
             Self::Series(series) => series.states,
         }
     }
@@ -66,7 +64,7 @@ impl Curve {
     /// Memory that no other curve counts.
     pub(super) fn bytes(&self) -> usize {
         let values = match self {
-            Self::Points(values) => values.len(),
+            Self::Points(values, _) => values.len(),
             Self::Series(series) if Arc::strong_count(series) == 1 => series.rows.len(),
             Self::Series(_) => 0,
         };
@@ -76,7 +74,7 @@ impl Curve {
     /// Writes the variables of all states at a time in s, or at the nearer end.
     pub(super) fn at(&self, span: (f64, f64), time: f64, out: &mut [f64]) {
         match self {
-            Self::Points(values) => polynomial((span, values), time, out),
+            Self::Points(values, points) => polynomial((span, values, *points), time, out),
             Self::Series(series) => series.at(time.clamp(span.0, span.1), out),
         }
     }
@@ -114,17 +112,21 @@ impl Series {
 
 /// The polynomial by the barycentric formula (J.-P. Berrut and L. N. Trefethen, SIAM Rev. 46 (2004)
 /// 501, equation 5.4).
-fn polynomial(((from, to), values): ((f64, f64), &[f64]), time: f64, out: &mut [f64]) {
+fn polynomial(
+    ((from, to), values, points): ((f64, f64), &[f64], usize),
+    time: f64,
+    out: &mut [f64],
+) {
     let at = ((time - from) / (to - from)).clamp(0.0, 1.0);
     let states = out.len();
-    let mut weights = [0.0; POINTS];
-    for (k, weight) in weights.iter_mut().enumerate() {
-        let distance = at - place(k);
+    let mut weights = [0.0; HIGHEST + 1];
+    for (k, weight) in weights[..points].iter_mut().enumerate() {
+        let distance = at - place(k, points);
         if distance.abs() < f64::EPSILON {
             out.copy_from_slice(&values[k * states..(k + 1) * states]);
             return;
         }
-        let end = if k == 0 || k == POINTS - 1 { 0.5 } else { 1.0 };
+        let end = if k == 0 || k == points - 1 { 0.5 } else { 1.0 };
         *weight = if k % 2 == 0 { end } else { -end } / distance;
     }
     let sum: f64 = weights.iter().sum();

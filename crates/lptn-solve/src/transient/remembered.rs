@@ -43,15 +43,17 @@ impl Run<'_> {
             return Ok(());
         }
         let mut state = self.integrator.state().to_vec();
-        let mut values = Vec::new();
-        for time in Trajectory::times(from, to) {
+        let order = self.integrator.statistics().last_order as usize;
+        let times: Vec<f64> = Trajectory::times((from, to), order).collect();
+        let mut values = Vec::with_capacity(times.len() * state.len());
+        for &time in &times {
             let taken = self.integrator.interpolate(time, &mut state);
             taken.map_err(|error| self.failed(error))?;
             values.extend_from_slice(&state);
         }
         let branch = self.massless(to, &state)?;
         if let Some(trajectory) = &mut self.trajectory {
-            trajectory.add((from, to), values, branch);
+            trajectory.add((from, to), (values, times.len()), branch);
         }
         Ok(())
     }

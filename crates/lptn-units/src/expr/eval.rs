@@ -81,6 +81,13 @@ impl Program {
                     stack.push(accumulator);
                     continue;
                 }
+                Op::Right(Arithmetic::Add, Operand::Constant(term)) => accumulator.plus(term),
+                Op::Right(Arithmetic::Subtract, Operand::Constant(term)) => accumulator.plus(-term),
+                Op::Right(Arithmetic::Multiply, Operand::Constant(factor))
+                | Op::Left(Arithmetic::Multiply, Operand::Constant(factor)) => {
+                    accumulator.scaled(factor)
+                }
+                Op::Left(Arithmetic::Add, Operand::Constant(term)) => accumulator.plus(term),
                 Op::Right(arithmetic, operand) => apply(arithmetic, accumulator, load(operand)),
                 Op::Left(arithmetic, operand) => apply(arithmetic, load(operand), accumulator),
                 Op::Popped(arithmetic) => apply(arithmetic, pop(stack), accumulator),
