@@ -129,7 +129,7 @@ fn comparing_a_grid_takes_little_more_than_running_it() {
         // and where segments begin
         assert!(found.looks.placed <= 6 * steps + 10, "{pulse}: {:?}", found.looks);
         let nodes = system.network().nodes().len() as u64;
-        assert!(found.looks.sought <= nodes * steps / 5, "{pulse}: {:?}", found.looks);
+        assert!(found.looks.searched <= nodes * steps / 5, "{pulse}: {:?}", found.looks);
     }
 }
 

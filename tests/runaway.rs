@@ -143,7 +143,7 @@ fn the_other_side_of_a_hump_is_found_from_either() {
     }
 }
 
-/// Where the form excludes a second state none is sought.
+/// If the form excludes a second state, lptn does not search for one.
 #[test]
 fn thinning_and_linear_networks_have_one() {
     let falling = netlist(40.0, 20.0, ONE).replace("exp(0.02", "exp(-0.02");

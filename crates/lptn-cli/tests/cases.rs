@@ -138,7 +138,7 @@ fn a_probability_is_kept_and_said() {
 /// In summer the block is at 45 + 100 / x degC, at overload at 30 + 150 / x, with x = G / (W/K). Below
 /// x = 10/3 the latter is hotter, above it the former, and 45 + 100 / x + 2 x is least at x = sqrt(50).
 #[test]
-fn of_results_that_are_sought_the_worst_case_counts() {
+fn of_results_that_are_optimised_the_worst_case_counts() {
     let text = BLOCK
         .replace("minimise = \"G\"", "minimise = \"block.T - 20 [degC] + 2 [K^2/W] * G\"")
         .replace("<= 80", "<= 200");

@@ -172,7 +172,7 @@ fn columns_measure_temperatures() {
     assert!(csv.starts_with("record,column,unit,time [s],measured [unit]"), "{csv}");
 }
 
-/// An offset in a column that starts at 0 was read as if it were not there, and then sought without
+/// An offset in a column that starts at 0 was read as if it were not there, then estimated without
 /// any effect. The offset is that of the record: all of it is 1.5 K too high.
 #[test]
 fn regression_a_parameter_in_a_column_does_not_vanish_when_it_is_zero() {
@@ -376,7 +376,7 @@ fn csv_has_both_ends_of_every_interval() {
     }
 }
 
-/// A room that is sought: JSON gives it in degC, as the text does, and its errors in K. With all else
+/// An estimated room: JSON gives it in degC, as the text does, and its errors in K. With all else
 /// known the record is that of a room of 25.5 degC.
 #[test]
 fn a_fitted_temperature_is_in_the_unit_of_the_text() {

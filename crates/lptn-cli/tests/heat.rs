@@ -197,7 +197,7 @@ fn a_bound_in_kelvin_for_an_absolute_temperature_is_refused() {
     Folder::with("x.toml", &difference).run(&["check", "x.toml"]).exits(0);
 }
 
-/// What a parameter is sought between has the type of the parameter, which is not that of a field.
+/// The range of a parameter has the type of the parameter, which is not that of a field.
 #[test]
 fn other_values_of_a_parameter_follow_the_rule_too() {
     let size = "[size.s]\nminimise = \"T_room\"\nvary = { T_room = { from = \"280 K\", to = \"300 \

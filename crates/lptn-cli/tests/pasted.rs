@@ -107,7 +107,7 @@ fn other_offered_studies_are_accepted_in_every_shipped_network() {
 
 /// A fan must be strong enough and a power small enough: the direction follows from the physics.
 #[test]
-fn what_is_cheap_is_sought() {
+fn a_cheap_choice_is_offered() {
     let network = |parameter: &str, path: &str, source: &str| {
         format!(
             "format = 1\n[param]\n{parameter}\n[node]\nbox = {{ C = \"1 kJ/K\", T0 = \"20 degC\" }}\n\

@@ -1,4 +1,4 @@
-//! Which network records speak for: against SciPy on networks that are linear in what is sought, for
+//! The network that records support: against SciPy on networks that are linear in the unknowns, for
 //! which all of it has a closed form.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]

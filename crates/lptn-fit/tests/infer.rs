@@ -181,7 +181,7 @@ fn ranks_of_drawn_truths_are_uniform() {
 }
 
 /// The film coefficient of a wind over a hot plate is not linear in anything; rounds find it. The
-/// record is that of the network itself with the course that is sought, integrated in short steps.
+/// record is that of the network itself with the estimated time history, integrated in short steps.
 #[test]
 fn a_film_coefficient_over_time_is_found_in_rounds() {
     let truth = |t: f64| 25.0 * (1.0 + 0.6 * f64::sin(t / 300.0));

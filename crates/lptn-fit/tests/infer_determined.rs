@@ -66,7 +66,7 @@ const OFFSET: Rival = Rival::Sensor { sensor: 0, gain: false };
 #[test]
 fn two_heats_into_one_node_are_not_distinguished() {
     let found = rivals("", "\"body.T\"", "find = [\"P\", \"Q\"]");
-    assert_eq!(found, [Some(vec![Rival::Sought(1)]), Some(vec![Rival::Sought(0)])]);
+    assert_eq!(found, [Some(vec![Rival::Estimated(1)]), Some(vec![Rival::Estimated(0)])]);
 }
 
 /// A power of P warms the body by 0.3 K/W P (1 - exp(-t / 800 s)). A free start adds exp(-t / 800 s)
@@ -91,7 +91,7 @@ fn an_offset_that_is_hardly_known_hides_a_power() {
     let wide = "[sensor]\ntc = { offset = \"0 ± 300 K\" }";
     let found = rivals(wide, READ, walk);
     let found = found[0].as_ref().unwrap();
-    assert!(found.contains(&OFFSET) && !found.contains(&Rival::Sought(0)), "{found:?}");
+    assert!(found.contains(&OFFSET) && !found.contains(&Rival::Estimated(0)), "{found:?}");
     let narrow = "[sensor]\ntc = { offset = \"0 ± 3 K\" }";
     assert_eq!(rivals(narrow, READ, walk), [None]);
 }

@@ -86,7 +86,7 @@ fn an_independent_smoother_finds_the_same() {
     }
 }
 
-/// A heated block behind a skin that is known as a factor, and a second body whose power is sought.
+/// A heated block behind a skin that is known as a factor, and a second body of unknown power.
 const FACTOR: &str = "format = 1
 [param]
 R = \"0.2 K/W ± 40 % (lognormal)\"

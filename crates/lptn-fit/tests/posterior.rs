@@ -57,8 +57,8 @@ fn analytic_a_linear_posterior_is_that_of_least_squares() {
     assert_eq!(room.prior.unwrap().spread, Spread::normal(2.0));
 }
 
-/// R and C between bounds are sought in logarithms. A random walk of Metropolis over ln R and ln C
-/// with a flat prior (NumPy, 4000 chains of 2700 steps, an error of the deviations of 0.1 %) has
+/// Estimates of ln R and ln C between bounds. A random walk of Metropolis over ln R and ln C with a
+/// flat prior (NumPy, 4000 chains of 2700 steps, an error of the deviations of 0.1 %) has
 /// deviations of 0.015256 and 0.027924 and a correlation of 0.5908.
 #[test]
 fn a_posterior_in_logarithms_is_that_of_a_random_walk() {

@@ -319,7 +319,7 @@ impl<'a> Elaboration<'a> {
     pub(crate) fn set_by_cases(
         &mut self,
         (fields, cases): (&Fields<'a>, Option<&[String]>),
-        sought: &[&String],
+        varied: &[&String],
     ) -> Option<()> {
         let counts = |entry: &&RawEntry| cases.is_none_or(|names| names.contains(&entry.key));
         for entry in self.elements(CASE.name).iter().filter(counts) {
@@ -327,7 +327,7 @@ impl<'a> Elaboration<'a> {
             let Some(RawKind::Table(set)) = table.get("set").map(|set| &set.value.kind) else {
                 continue;
             };
-            if let Some(one) = set.entries.iter().find(|one| sought.contains(&&one.key)) {
+            if let Some(one) = set.entries.iter().find(|one| varied.contains(&&one.key)) {
                 let message = format!(
                     "{} varies `{}`, which case `{}` sets",
                     fields.owner.words(),

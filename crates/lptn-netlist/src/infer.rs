@@ -94,7 +94,7 @@ pub struct InferStudy {
     /// The record and the results that its columns measured: a fit that varies nothing.
     pub reads: FitStudy,
     /// The signals to be estimated, in file order; at least one, none twice.
-    pub sought: Vec<SoughtSignal>,
+    pub estimated: Vec<EstimatedSignal>,
     /// Knowledge of the initial temperatures.
     pub start: InferStart,
     /// Standard deviation and time of the slow part of the noise.
@@ -103,7 +103,7 @@ pub struct InferStudy {
 
 /// A signal whose time history is to be estimated.
 #[derive(Clone, Debug)]
-pub struct SoughtSignal {
+pub struct EstimatedSignal {
     /// Its name.
     pub name: String,
     /// Its type.
@@ -140,13 +140,13 @@ impl InferStudy {
     /// The error of the evaluation of a change or a time.
     pub fn changes(&self, network: &Network) -> Result<Vec<Option<f64>>, EvalError> {
         let mut scope = network.evaluation();
-        let mut one = |sought: &SoughtSignal| match &sought.change {
+        let mut one = |estimated: &EstimatedSignal| match &estimated.change {
             None => Ok(None),
             Some((change, within)) => {
                 Ok(Some(change.at(&mut scope)? / within.at(&mut scope)?.sqrt()))
             }
         };
-        self.sought.iter().map(&mut one).collect()
+        self.estimated.iter().map(&mut one).collect()
     }
 
     /// Standard deviation in K and time in s of the slow part of the noise; `None` if not given.
@@ -206,15 +206,15 @@ impl Study for InferStudy {
                     .at(self.span.clone(), ""),
             ),
             Ok(changes) => {
-                for (sought, change) in self.sought.iter().zip(changes) {
+                for (estimated, change) in self.estimated.iter().zip(changes) {
                     if change.is_some_and(|change| !(change > 0.0 && change.is_finite())) {
                         let message = format!(
                             "the change of `{}` and its time have to be more than zero",
-                            sought.name
+                            estimated.name
                         );
                         let help = "write for example `{ change = \"50 W\", within = \"1 min\" }`; \
                                     a constant is a parameter of `lptn fit network`";
-                        problems.push(wrong(message, &sought.span).help(help));
+                        problems.push(wrong(message, &estimated.span).help(help));
                     }
                 }
             }
@@ -225,25 +225,25 @@ impl Study for InferStudy {
     fn fields(&self, network: &Network, path: &PathFrom<'_>) -> TomlFields {
         let mut fields = TomlFields::default();
         self.reads.put_read(&mut fields, network, path);
-        let sought = |sought: &SoughtSignal| {
+        let estimated = |estimated: &EstimatedSignal| {
             let mut own = TomlFields::default();
-            if let Some((change, within)) = &sought.change {
-                own.put("change", value(change, change_of(sought.ty, sought.positive)));
+            if let Some((change, within)) = &estimated.change {
+                own.put("change", value(change, change_of(estimated.ty, estimated.positive)));
                 own.put("within", value(within, TIME));
             }
-            if sought.positive {
+            if estimated.positive {
                 own.put("positive", "true");
             }
-            if sought.jumps != sought.change.is_none() {
-                own.put("jumps", sought.jumps.to_string());
+            if estimated.jumps != estimated.change.is_none() {
+                own.put("jumps", estimated.jumps.to_string());
             }
-            format!("{} = {}", toml_key(&sought.name), own.inline())
+            format!("{} = {}", toml_key(&estimated.name), own.inline())
         };
         if let Some((drift, time)) = &self.drift {
             fields.put("drift", drift.written());
             fields.put("drift_time", time.written());
         }
-        fields.table("find", self.sought.iter().map(sought));
+        fields.table("find", self.estimated.iter().map(estimated));
         self.reads.put_recorded(&mut fields);
         if let Some((word, _)) = STARTS[1..].iter().find(|(_, start)| *start == self.start) {
             fields.word("initial", word);
@@ -261,7 +261,7 @@ impl<'a> Elaboration<'a> {
     fn infer_study(&mut self, entry: &'a RawEntry) -> Option<InferStudy> {
         let fields = self.fields(&INFER, entry)?;
         self.all_there(&fields, &[])?;
-        let sought = self.sought_signals(&fields);
+        let estimated = self.estimated_signals(&fields);
         let drift = self.optional_setting(&fields, "drift");
         let time = self.optional_setting(&fields, "drift_time");
         let place = (&fields.owner, &entry.key_span, "netlist::infer_drift");
@@ -280,9 +280,9 @@ impl<'a> Elaboration<'a> {
             self.refuse("netlist::infer_records", message, span, help);
             return None;
         }
-        let sought = sought?;
+        let estimated = estimated?;
         for signal in &reads.signals {
-            if let Some(both) = sought.iter().find(|sought| sought.name == signal.name) {
+            if let Some(both) = estimated.iter().find(|estimated| estimated.name == signal.name) {
                 let message = format!(
                     "{} follows a column of the record and is to be estimated",
                     fields.owner.field(&signal.name)
@@ -297,14 +297,14 @@ impl<'a> Elaboration<'a> {
         let (name, span) = (entry.key.clone(), entry.key_span.clone());
         let reads =
             FitStudy { drop_outliers: drop_outliers?, initial: FitInitial::Network, ..reads };
-        Some(InferStudy { name, span, reads, sought, start: start?, drift: drift? })
+        Some(InferStudy { name, span, reads, estimated, start: start?, drift: drift? })
     }
 
     /// `find = ["P"]` or `find = { P = { change = "50 W", within = "1 min" } }`.
-    fn sought_signals(&mut self, fields: &Fields<'a>) -> Option<Vec<SoughtSignal>> {
+    fn estimated_signals(&mut self, fields: &Fields<'a>) -> Option<Vec<EstimatedSignal>> {
         let wanted = Names::Either("a list of signals, or a table of them");
         let names = self.listed(fields, "find", wanted)?;
-        let all = all(names.into_iter().map(|one| self.sought_entry(fields, one)))?;
+        let all = all(names.into_iter().map(|one| self.estimated_entry(fields, one)))?;
         for (i, own) in all.iter().enumerate() {
             if all[..i].iter().any(|other| other.name == own.name) {
                 let message = format!("{} names `{}` twice", fields.owner.field("find"), own.name);
@@ -315,9 +315,9 @@ impl<'a> Elaboration<'a> {
         Some(all)
     }
 
-    fn sought_entry(&mut self, fields: &Fields<'a>, one: Listed<'a>) -> Option<SoughtSignal> {
-        let sought = self.sought_signal(fields, (one.name, one.span))?;
-        let Some(entry) = one.entry else { return Some(sought) };
+    fn estimated_entry(&mut self, fields: &Fields<'a>, one: Listed<'a>) -> Option<EstimatedSignal> {
+        let estimated = self.estimated_signal(fields, (one.name, one.span))?;
+        let Some(entry) = one.entry else { return Some(estimated) };
         let owner = fields.owner.inside("find").inside(&entry.key);
         let inner = self.inner(&FIND, owner.clone(), entry)?;
         let positive = self.yes_or_no(&inner, "positive")?.unwrap_or(false);
@@ -326,7 +326,7 @@ impl<'a> Elaboration<'a> {
         let change = match (change, within) {
             (None, None) => None,
             (Some(change), Some(within)) => {
-                let wanted = Wanted::constant(change_of(sought.ty, positive));
+                let wanted = Wanted::constant(change_of(estimated.ty, positive));
                 let change = self.exactly_inside(&owner, ("change", change), wanted);
                 let within =
                     self.exactly_inside(&owner, ("within", within), Wanted::constant(TIME));
@@ -341,14 +341,14 @@ impl<'a> Elaboration<'a> {
             }
         };
         let jumps = jumps.unwrap_or(change.is_none());
-        Some(SoughtSignal { positive, jumps, change, ..sought })
+        Some(EstimatedSignal { positive, jumps, change, ..estimated })
     }
 
-    fn sought_signal(
+    fn estimated_signal(
         &mut self,
         fields: &Fields<'a>,
         (name, span): (&str, &Span),
-    ) -> Option<SoughtSignal> {
+    ) -> Option<EstimatedSignal> {
         let kind = self.names.values.get(name).map(|(kind, ..)| *kind);
         if kind != Some(ValueKind::Signal) {
             let message =
@@ -371,6 +371,6 @@ impl<'a> Elaboration<'a> {
         }
         let ty = self.type_here(name)?;
         let (name, span) = (name.to_owned(), span.clone());
-        Some(SoughtSignal { name, ty, positive: false, jumps: true, span, change: None })
+        Some(EstimatedSignal { name, ty, positive: false, jumps: true, span, change: None })
     }
 }

@@ -118,7 +118,7 @@ pub use fit::{FitInitial, FitPlan, FitRecord, FitSignal, FitStudy, Observed, Var
 pub use format::{KeyDeclaration, NetlistFormat, Role, SectionDeclaration, Takes};
 pub use gearbox::{Arrangement, Gearbox, GearboxPart, Member};
 pub use include::Loader;
-pub use infer::{InferStart, InferStudy, SoughtSignal};
+pub use infer::{EstimatedSignal, InferStart, InferStudy};
 pub use initial::InitialState;
 pub use lptn_data::{
     CsvOptions, CsvText, DATE_ORDERS, DECIMALS, DataSheet, DateOrder, Decimal, Diagnostic, FileId,

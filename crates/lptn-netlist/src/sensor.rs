@@ -99,7 +99,7 @@ impl SensorValue {
     }
 
     /// True if a fit has to estimate it.
-    pub fn is_sought(&self) -> bool {
+    pub fn is_estimated(&self) -> bool {
         self.certainty != Certainty::Exact
     }
 }
@@ -207,7 +207,7 @@ impl<'a> Elaboration<'a> {
         let resolution = self.sensor_value(&fields, "resolution", own);
         let per_record = self.choice(&fields, "per", &PER);
         let offset = offset?.unwrap_or(SensorValue::exact(0.0));
-        if per_record? && !offset.is_sought() {
+        if per_record? && !offset.is_estimated() {
             let why = "has no effect on an offset that is known";
             self.refuse_keys(&fields, &["per"], why);
         }

@@ -7,5 +7,5 @@ pub struct Looks {
     pub placed: u64,
     /// Number of steps in which the peak or the level of a watched node was searched for, of all
     /// such nodes together.
-    pub sought: u64,
+    pub searched: u64,
 }

@@ -389,7 +389,7 @@ impl<'a> Recorder<'a> {
             jumps: self.jumps.and_then(Jumps::into_sides),
             days: self.days.map_or_else(Vec::new, Days::into_past),
             extremes: self.extremes,
-            looks: Looks { placed: self.placed, sought: self.lookout.sought() },
+            looks: Looks { placed: self.placed, searched: self.lookout.searched() },
             seen: self.lookout.into_seen(),
             limits,
             out_of_range: self.ranges.into_found(),

@@ -334,7 +334,7 @@ fn peaks_and_levels_are_those_of_the_curve() {
         }
         let (looks, measured) = (solution.looks(), if hottest_only { 137 } else { 296 });
         assert!(
-            looks.sought * 10 <= measured * 11 && looks.sought * 10 >= measured * 9,
+            looks.searched * 10 <= measured * 11 && looks.searched * 10 >= measured * 9,
             "{looks:?}"
         );
         assert!(looks.placed <= 2250 && looks.placed >= 1850, "{looks:?}, 2050 measured");

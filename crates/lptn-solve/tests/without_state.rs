@@ -119,7 +119,7 @@ fn looks_at_a_joint_are_few() {
     for (found, measured) in [(line.placed, 338), (wave.placed, 7213)] {
         assert!(found.abs_diff(measured) <= measured / 100, "{found} for {measured}");
     }
-    assert_eq!([line.sought, wave.sought], [8, 153]);
+    assert_eq!([line.searched, wave.searched], [8, 153]);
 }
 
 /// A joint that radiates has one solution: each of eight parts is gone to its end before it is

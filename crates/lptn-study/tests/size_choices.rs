@@ -1,4 +1,4 @@
-//! What is sought among results, parts with something sized for each, and parts without an answer,
+//! Objectives among results, parts with something sized for each, and parts without an answer,
 //! against closed forms.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
@@ -113,7 +113,7 @@ fn a_part_without_an_answer_is_listed_with_its_error() {
     assert!(!found.judged[1].keeps() && found.judged[1].margins().is_empty());
     // at 2 m/s 0.6 and 0.45 K/W become 0.345 and 0.258 K/W
     assert_eq!(found.best, Some(3));
-    // sought among results, or beside something that is sized, it comes last
+    // optimised among results, or beside something that is sized, it comes last
     for study in ["minimise = 'fins.Q'", SPEED] {
         let found = chosen(&format!("{PARTS}{runaway}"), study).unwrap();
         assert_eq!(found.judged.last().unwrap().parts, [4], "{study}");

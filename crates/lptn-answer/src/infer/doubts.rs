@@ -98,7 +98,7 @@ fn surprised(
     if is_alike(column) && matches!(task.drift, Drift::Known { .. }) {
         reasons.push("a slow part of the noise is larger than `drift`");
     }
-    if task.sought.iter().any(|sought| sought.intensity.is_some()) {
+    if task.estimated.iter().any(|estimated| estimated.intensity.is_some()) {
         reasons.push("an estimated signal changes faster than `change`");
     }
     let mut help = "the bands are too narrow: ".to_owned();

@@ -14,7 +14,7 @@ const TWO: f64 = 2.0;
 impl InferAnswer {
     pub(super) fn pictures(&self) -> Vec<Figure> {
         let rows = self.drawn_rows();
-        let courses = 0..self.task.sought.len();
+        let courses = 0..self.task.estimated.len();
         let mut panels: Vec<Panel> = courses.map(|j| self.course(j, &rows)).collect();
         panels.extend([self.temperatures(&rows), self.surprises()]);
         let title = self.input.title();
@@ -47,7 +47,7 @@ impl InferAnswer {
     }
 
     fn course(&self, j: usize, rows: &[usize]) -> Panel {
-        let (name, unit) = (&self.task.sought[j].name, &self.units[j]);
+        let (name, unit) = (&self.task.estimated[j].name, &self.units[j]);
         let mut panel = Panel::new(Axis::time(), Axis::linear(name, &*unit.text));
         let band = &self.found.courses[j].band;
         let band = || rows.iter().map(|&row| (self.found.times[row], &band[row]));

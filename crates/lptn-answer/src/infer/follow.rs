@@ -61,8 +61,10 @@ impl Following {
     pub(super) fn new(input: Arc<Input>, study: InferStudy) -> Result<Self, Failure> {
         let mut task = task(&input, &study)?;
         STDIN.clone_into(&mut task.run.name);
-        let units: Vec<Unit> = task.sought.iter().map(|sought| unit_of(&input, sought)).collect();
-        let names: Vec<String> = task.sought.iter().map(|sought| sought.name.clone()).collect();
+        let units: Vec<Unit> =
+            task.estimated.iter().map(|estimated| unit_of(&input, estimated)).collect();
+        let names: Vec<String> =
+            task.estimated.iter().map(|estimated| estimated.name.clone()).collect();
         let columns = task.run.columns.iter();
         let columns = columns.map(|own| (own.name.clone(), own.ty.absolute)).collect();
         let follower = Follower::new(task).map_err(|error| failed(&input, &study, &error))?;

@@ -13,7 +13,7 @@ fn seconds(time: f64) -> SiValue {
 impl InferAnswer {
     pub(super) fn signals_json(&self) -> Value {
         let one = |j: usize| {
-            let (sought, course) = (&self.task.sought[j], &self.found.courses[j]);
+            let (estimated, course) = (&self.task.estimated[j], &self.found.courses[j]);
             let unit = self.units[j].ty.dimension.si_unit();
             let known =
                 |known: Known| json!({ "value": known.value, "sd": known.deviation, "unit": unit });
@@ -24,20 +24,20 @@ impl InferAnswer {
                 "constant_log_likelihood": course.still.1,
                 "intensity": course.intensity,
                 "slope_intensity": course.slope_intensity,
-                "positive": sought.positive,
+                "positive": estimated.positive,
             });
-            (sought.name.clone(), member)
+            (estimated.name.clone(), member)
         };
-        Value::Object((0..self.task.sought.len()).map(one).collect())
+        Value::Object((0..self.task.estimated.len()).map(one).collect())
     }
 
     pub(super) fn jumps_json(&self) -> Value {
         let one = |jump: &InferredJump| {
-            let sought = &self.task.sought[jump.course];
+            let estimated = &self.task.estimated[jump.course];
             let own = self.units[jump.course].ty.dimension.si_unit();
-            let unit = if sought.positive { "1".to_owned() } else { own };
+            let unit = if estimated.positive { "1".to_owned() } else { own };
             json!({
-                "signal": sought.name,
+                "signal": estimated.name,
                 "between": [seconds(jump.between.0), seconds(jump.between.1)],
                 "by": { "value": jump.by.value, "sd": jump.by.deviation, "unit": unit },
                 "log_likelihood_without": self.found.log_likelihood - jump.gain,

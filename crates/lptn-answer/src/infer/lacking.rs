@@ -12,7 +12,7 @@ impl InferAnswer {
         let mut said: Vec<Vec<Rival>> = Vec::new();
         let mut parts: Vec<String> = Vec::new();
         for (j, rivals) in courses.filter_map(|(j, own)| Some((j, own.rivals.as_ref()?))) {
-            let mut all = [&[Rival::Sought(j)], rivals.as_slice()].concat();
+            let mut all = [&[Rival::Estimated(j)], rivals.as_slice()].concat();
             let (own, others) = (self.listed(&all[..1]), self.listed(rivals));
             all.sort();
             // `P` from `Q` says the same as `Q` from `P`
@@ -36,7 +36,7 @@ impl InferAnswer {
             all.iter().filter(|rival| is(rival)).copied().collect()
         };
         let known = of(|rival| matches!(rival, Rival::Parameter(_) | Rival::Sensor { .. }));
-        let sought = of(|rival| matches!(rival, Rival::Sought(_)));
+        let estimated = of(|rival| matches!(rival, Rival::Estimated(_)));
         let mut remedies: Vec<String> = Vec::new();
         if !known.is_empty() {
             remedies.push(format!("give {} a smaller `±`", self.listed(&known)));
@@ -44,8 +44,8 @@ impl InferAnswer {
         if all.iter().any(|rival| matches!(rival, Rival::Start(_))) {
             remedies.push("begin at known temperatures (`initial = \"network\"`)".to_owned());
         }
-        if sought.len() > 1 {
-            remedies.push(format!("find only one of {}", self.listed(&sought)));
+        if estimated.len() > 1 {
+            remedies.push(format!("find only one of {}", self.listed(&estimated)));
         }
         remedies.push("measure another node".to_owned());
         remedies.join(", or ")
@@ -59,7 +59,7 @@ impl InferAnswer {
     fn rival(&self, rival: Rival) -> String {
         let network = &self.input.netlist.network;
         match rival {
-            Rival::Sought(j) => self.task.sought[j].name.clone(),
+            Rival::Estimated(j) => self.task.estimated[j].name.clone(),
             Rival::Parameter(k) => {
                 let id = self.task.uncertain[k].parameter;
                 network.parameters()[id.index()].name.clone()

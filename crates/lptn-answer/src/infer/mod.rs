@@ -10,7 +10,7 @@ mod report;
 
 use std::sync::Arc;
 
-use lptn_fit::infer::{InferError, InferTask, Inferred, Sought, infer as inferred};
+use lptn_fit::infer::{Estimated, InferError, InferTask, Inferred, infer as inferred};
 use lptn_netlist::{Diagnostic, Files, InferStudy};
 use lptn_units::{Type, Unit};
 
@@ -114,7 +114,7 @@ impl InferenceOfRecord {
         let Self { input, study, task } = self;
         let found = inferred(&task, &|step| listener.progress(step))
             .map_err(|error| failed(&input, &study, &error))?;
-        let units = task.sought.iter().map(|sought| unit_of(&input, sought)).collect();
+        let units = task.estimated.iter().map(|estimated| unit_of(&input, estimated)).collect();
         let mut answer = InferAnswer { input, study, task, found, units, doubts: Vec::new() };
         answer.doubts = doubts::of(&answer);
         listener.warn(answer.files(), &answer.doubts);
@@ -134,11 +134,11 @@ const STUDIES: Studies = Studies {
 };
 
 fn failed(input: &Input, study: &InferStudy, error: &InferError) -> Failure {
-    let of = |name: &str| study.sought.iter().find(|sought| sought.name == name);
+    let of = |name: &str| study.estimated.iter().find(|estimated| estimated.name == name);
     let span = match error {
         InferError::Record(inner) => record_place(&study.reads, inner),
         InferError::NotPositive { signal, .. } | InferError::Unfelt { signal } => {
-            of(signal).map(|sought| &sought.span)
+            of(signal).map(|estimated| &estimated.span)
         }
         InferError::Lag { sensor } => {
             let sensors = &input.netlist.studies.sensors;
@@ -150,9 +150,9 @@ fn failed(input: &Input, study: &InferStudy, error: &InferError) -> Failure {
 }
 
 /// The unit of a signal: that of temperatures if it is one, else its own.
-fn unit_of(input: &Input, sought: &Sought) -> Unit {
+fn unit_of(input: &Input, estimated: &Estimated) -> Unit {
     let signals = input.netlist.network.signals();
-    let Some(signal) = signals.iter().find(|signal| signal.name == sought.name) else {
+    let Some(signal) = signals.iter().find(|signal| signal.name == estimated.name) else {
         return input.netlist.temperature_unit.clone();
     };
     if signal.ty == Type::ABSOLUTE_TEMPERATURE {

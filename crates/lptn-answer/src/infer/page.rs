@@ -28,7 +28,7 @@ const MINUTE: f64 = 60.0;
 impl Page for InferAnswer {
     fn text(&self) -> Text {
         let mut text = Text::titled(self.input.title());
-        let names: Vec<&str> = self.task.sought.iter().map(|s| s.name.as_str()).collect();
+        let names: Vec<&str> = self.task.estimated.iter().map(|s| s.name.as_str()).collect();
         let readings = self.found.columns.iter().map(|column| column.readings).sum();
         text.line(format!(
             "infer {}: {} over {} from {} of {}",
@@ -129,9 +129,9 @@ impl InferAnswer {
         let rows: Vec<usize> = (0..self.found.times.len()).collect();
         let mut table = Table::of(&rows);
         table.column("time", "s", |&k| self.found.times[k]);
-        for (j, sought) in self.task.sought.iter().enumerate() {
+        for (j, estimated) in self.task.estimated.iter().enumerate() {
             let (band, unit) = (&self.found.courses[j].band, &self.units[j].text);
-            let name = |ending: &str| format!("{}{ending}", sought.name);
+            let name = |ending: &str| format!("{}{ending}", estimated.name);
             table.column(name(""), unit, |&k| self.shown(j, band[k].value));
             table.column(name(".low"), unit, |&k| self.shown(j, band[k].ends.0));
             table.column(name(".high"), unit, |&k| self.shown(j, band[k].ends.1));
@@ -153,7 +153,7 @@ impl InferAnswer {
         let chosen: Vec<usize> = (0..=most).map(|i| i * last / most).collect();
         let mut table =
             TextTable::of(&chosen).right("time", |&k| duration(self.found.times[k], 3)).names();
-        for (j, sought) in self.task.sought.iter().enumerate() {
+        for (j, estimated) in self.task.estimated.iter().enumerate() {
             let band = &self.found.courses[j].band;
             let half = |k: usize| 0.5 * (band[k].ends.1 - band[k].ends.0).abs();
             let widest = chosen.iter().map(|&k| self.shown_difference(j, half(k)));
@@ -161,14 +161,14 @@ impl InferAnswer {
             let shown = move |si: f64| fixed(self.shown(j, si), digits);
             let unit = symbol(&self.units[j].text);
             table = table
-                .right(format!("{} [{unit}]", sought.name), move |&k| shown(band[k].value))
+                .right(format!("{} [{unit}]", estimated.name), move |&k| shown(band[k].value))
                 .right("from", move |&k| shown(band[k].ends.0))
                 .right("to", move |&k| shown(band[k].ends.1));
         }
         let unit = &self.input.netlist.temperature_unit;
         let head = |name: &str, unit: &str| format!("{name} [{}]", symbol(unit));
-        let courses = self.task.sought.iter().zip(&self.units);
-        let heads = courses.map(|(sought, unit)| head(&sought.name, &unit.text));
+        let courses = self.task.estimated.iter().zip(&self.units);
+        let heads = courses.map(|(estimated, unit)| head(&estimated.name, &unit.text));
         let mut width = TIME + heads.map(|head| head.chars().count() + 2 + 2 * END).sum::<usize>();
         for (id, known) in &self.found.nodes {
             let head = head(&self.input.netlist.network.nodes()[id.index()].name, &unit.text);
@@ -184,7 +184,7 @@ impl InferAnswer {
     /// Times and sizes of the jumps of signals.
     pub(super) fn jumps(&self) -> TextTable {
         let by = |jump: &InferredJump| {
-            let (value, error) = match self.task.sought[jump.course].positive {
+            let (value, error) = match self.task.estimated[jump.course].positive {
                 true => with_error(100.0 * jump.by.value, 100.0 * jump.by.deviation),
                 false => {
                     let shown = |si: f64| self.shown_difference(jump.course, si);
@@ -193,12 +193,12 @@ impl InferAnswer {
             };
             format!("{value} ± {error}")
         };
-        let unit = |jump: &InferredJump| match self.task.sought[jump.course].positive {
+        let unit = |jump: &InferredJump| match self.task.estimated[jump.course].positive {
             true => "%",
             false => self.difference_unit(jump.course),
         };
         TextTable::of(&self.found.jumps)
-            .left("jump of", |jump| &*self.task.sought[jump.course].name)
+            .left("jump of", |jump| &*self.task.estimated[jump.course].name)
             .names()
             .right("between", |jump| duration(jump.between.0, 4))
             .right("and", |jump| duration(jump.between.1, 4))
@@ -215,13 +215,13 @@ impl InferAnswer {
 
     /// Mean of each signal, and its value at the end.
     pub(super) fn means(&self) -> TextTable {
-        let all: Vec<usize> = (0..self.task.sought.len()).collect();
+        let all: Vec<usize> = (0..self.task.estimated.len()).collect();
         let course = |j: usize| &self.found.courses[j];
         let pair = |(value, error): (String, String)| {
             if error.is_empty() { value } else { format!("{value} ± {error}") }
         };
         TextTable::of(&all)
-            .left("signal", |&j| &*self.task.sought[j].name)
+            .left("signal", |&j| &*self.task.estimated[j].name)
             .names()
             .right("mean", |&j| {
                 course(j).mean.map_or(String::new(), |mean| pair(self.shown_with_error(j, mean)))
@@ -331,9 +331,9 @@ impl InferAnswer {
 
     pub(super) fn notes(&self) -> Vec<(&'static str, String)> {
         let mut notes: Vec<(&'static str, String)> = Vec::new();
-        for (j, sought) in self.task.sought.iter().enumerate() {
+        for (j, estimated) in self.task.estimated.iter().enumerate() {
             notes.push(("smoothness", self.smoothness(j)));
-            if sought.intensity.is_none() {
+            if estimated.intensity.is_none() {
                 notes.push(("changes", self.changes(j)));
             }
         }
@@ -344,8 +344,8 @@ impl InferAnswer {
 
     /// Text on the drift of a signal.
     fn smoothness(&self, j: usize) -> String {
-        let (sought, course) = (&self.task.sought[j], &self.found.courses[j]);
-        let shown = |coordinate: f64| match sought.positive {
+        let (estimated, course) = (&self.task.estimated[j], &self.found.courses[j]);
+        let shown = |coordinate: f64| match estimated.positive {
             true => format!("{} %", significant(100.0 * coordinate, 3)),
             false => {
                 let value = significant(self.shown_difference(j, coordinate), 3);
@@ -361,10 +361,10 @@ impl InferAnswer {
         if course.slope_intensity > 0.0 {
             parts.push(format!("bends by {} in 1 min", shown(bend)));
         }
-        let how = if sought.intensity.is_some() { "as given" } else { "most likely" };
+        let how = if estimated.intensity.is_some() { "as given" } else { "most likely" };
         match parts.is_empty() {
-            true => format!("{} is constant, {how}", sought.name),
-            false => format!("{} {} (1 sigma, {how})", sought.name, parts.join(" and ")),
+            true => format!("{} is constant, {how}", estimated.name),
+            false => format!("{} {} (1 sigma, {how})", estimated.name, parts.join(" and ")),
         }
     }
 
@@ -374,7 +374,7 @@ impl InferAnswer {
         /// if nothing changes: half of them are 0 (S. G. Self, K.-Y. Liang, J. Am. Stat. Assoc. 82
         /// (1987) 605).
         const CHANCE: f64 = 2.706;
-        let name = &self.task.sought[j].name;
+        let name = &self.task.estimated[j].name;
         let ratio = 2.0 * (self.found.log_likelihood - self.found.courses[j].still.1);
         let ratio_text = significant(ratio.max(0.0), 3);
         match ratio > CHANCE {
@@ -390,10 +390,10 @@ impl InferAnswer {
         if !self.is_whole() {
             return self.lacking();
         }
-        let text = self.task.sought.iter().enumerate().map(|(j, sought)| {
+        let text = self.task.estimated.iter().enumerate().map(|(j, estimated)| {
             let (value, error) = self.shown_with_error(j, self.at_end(j));
             let unit = symbol(&self.units[j].text);
-            format!("{} = {value} ± {error} {unit} at the end", sought.name)
+            format!("{} = {value} ± {error} {unit} at the end", estimated.name)
         });
         text.collect::<Vec<_>>().join("; ")
     }

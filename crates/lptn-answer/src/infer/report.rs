@@ -12,7 +12,7 @@ impl InferAnswer {
     pub(super) fn report(&self) -> Report {
         let (mut answer, mut results) = (Text::new(), Text::new());
         let whole = self.is_whole();
-        for j in (0..self.task.sought.len()).filter(|_| whole) {
+        for j in (0..self.task.estimated.len()).filter(|_| whole) {
             answer.marked(Standing::Holds, self.value(j));
         }
         if !whole {
@@ -45,9 +45,9 @@ impl InferAnswer {
         let (value, error) = self.shown_with_error(j, self.at_end(j));
         let [low, high] = [low, high].map(|si| super::page::to_error(self.shown(j, si), &error));
         let unit = symbol(&self.units[j].text);
-        let name = &self.task.sought[j].name;
+        let name = &self.task.estimated[j].name;
         let mut text = format!("{name} = {value} {unit} at the end (95 %: {low} .. {high})");
-        if self.task.sought[j].intensity.is_none() {
+        if self.task.estimated[j].intensity.is_none() {
             text += &format!("; {}", self.changes(j));
         }
         text

@@ -90,7 +90,7 @@ impl Chosen {
     fn objective(&self, choice: &Choice) -> String {
         match choice.objective.is_nan() {
             true => NOTHING.to_owned(),
-            false => page::sought(&self.asked, choice.objective),
+            false => page::objective(&self.asked, choice.objective),
         }
     }
 

@@ -31,7 +31,7 @@ impl Page for Sized {
         let (range, goal) = (self.range, goal(study.goal));
         let unit = &self.unit;
         let number = |si: f64| significant(unit.from_si(si), DIGITS);
-        let sought = format!(
+        let objective = format!(
             "size {}: the {goal} {} from {} to {}{}",
             study.name,
             self.name,
@@ -40,7 +40,7 @@ impl Page for Sized {
             spaced(&unit.text)
         );
         let mut text = Text::titled(input.title());
-        text.sentence("", &sought);
+        text.sentence("", &objective);
         when(&mut text, &input.netlist, (study, kept));
         text.section().table(requirements(self));
         text.conclude(13, notes(self), &verdict(self));
@@ -154,7 +154,7 @@ pub(super) fn goal(goal: Goal) -> &'static str {
 }
 
 /// The objective as text.
-pub(super) fn sought(asked: &Asked, si: f64) -> String {
+pub(super) fn objective(asked: &Asked, si: f64) -> String {
     let ty = asked.study.objective.ty;
     let degrees = input::temperature_unit(None, &asked.input.netlist).ok().filter(|_| ty.absolute);
     match degrees {

@@ -99,7 +99,7 @@ impl Sized {
 
     fn objective(&self) -> String {
         let text = plain(&self.asked.study.objective.text);
-        format!("{text} = {}", page::sought(&self.asked, self.found.design.objective))
+        format!("{text} = {}", page::objective(&self.asked, self.found.design.objective))
     }
 
     fn verdict(&self) -> String {
@@ -122,8 +122,8 @@ impl Page for Sized {
         let Asked { input, study, .. } = &self.asked;
         let goal = page::goal(study.goal);
         let mut text = Text::titled(input.title());
-        let sought = plain(&study.objective.text);
-        text.sentence("", &format!("size {}: the {goal} {sought}", study.name));
+        let objective = plain(&study.objective.text);
+        text.sentence("", &format!("size {}: the {goal} {objective}", study.name));
         page::when(&mut text, &input.netlist, (study, self.kept()));
         text.section().table(self.parameters());
         text.section().table(self.requirements());

@@ -29,7 +29,8 @@ pub fn infer(task: &InferTask, observer: &InferObserver<'_>) -> Result<Inferred,
     let settled = settle(task, observer)?;
     let mut found = told(task, &settled);
     let Settled { model, strength, begins, .. } = &settled;
-    let sizes = (0..task.sought.len()).map(|j| size(task.sought[j].positive, &found.courses[j]));
+    let sizes =
+        (0..task.estimated.len()).map(|j| size(task.estimated[j].positive, &found.courses[j]));
     let sizes: Vec<f64> = sizes.collect();
     let rivals = determined::courses((model, begins), strength, &sizes);
     found.courses.iter_mut().zip(rivals).for_each(|(course, rivals)| course.rivals = rivals);
@@ -66,7 +67,7 @@ fn told(task: &InferTask, settled: &Settled) -> Inferred {
         Known { value, deviation: own.unit(value) * moved.deviation }
     };
     let still = still(task, (reference, model), strength);
-    let courses = (0..task.sought.len()).map(|j| asked.course(j, &mixed, still[j])).collect();
+    let courses = (0..task.estimated.len()).map(|j| asked.course(j, &mixed, still[j])).collect();
     Inferred {
         times: moments.times.clone(),
         before: moments.before,
@@ -89,25 +90,25 @@ fn still(
     strength: &Strength,
 ) -> Vec<(Known, f64)> {
     let last = coordinates(task, reference, model.nodes.len() - 1);
-    let one = |(j, sought): (usize, &crate::infer::Sought)| {
+    let one = |(j, estimated): (usize, &crate::infer::Estimated)| {
         let (smoother, _) = model.smoothed(&constant((task, model), strength, j));
         let (state, likely) = (smoother.filter().state(), smoother.filter().log_likelihood());
         let (moved, deviation) = state.of(&[(model.states.course(j), 1.0)]);
         let there = last[j] + moved;
-        let known = match sought.positive {
+        let known = match estimated.positive {
             true => Known { value: there.exp(), deviation: deviation * there.exp() },
             false => Known { value: there, deviation },
         };
         (known, likely)
     };
-    task.sought.iter().enumerate().map(one).collect()
+    task.estimated.iter().enumerate().map(one).collect()
 }
 
 /// The most likely walks and jumps of the other time histories if one is constant. The noises are
 /// those of `strength`.
 fn constant((task, model): (&InferTask, &Model), strength: &Strength, j: usize) -> Strength {
     let mut held = task.clone();
-    (held.sought[j].intensity, held.sought[j].jumps) = (Some(0.0), false);
+    (held.estimated[j].intensity, held.estimated[j].jumps) = (Some(0.0), false);
     let columns = held.run.columns.iter_mut().zip(&strength.noises);
     columns.for_each(|(column, noise)| column.sigma = Some(noise.white));
     held.drift = Drift::Known { deviation: 0.0, time: 1.0 };
@@ -130,7 +131,7 @@ impl<'a> Asked<'a> {
 
     /// Number of values for each moment.
     fn of_moment(&self) -> usize {
-        self.task.sought.len() + self.shown.len()
+        self.task.estimated.len() + self.shown.len()
     }
 
     /// Means and deviations of all requested values: for each moment coordinates and temperatures,
@@ -138,7 +139,7 @@ impl<'a> Asked<'a> {
     fn of(&self, augmented: &Augmented) -> Vec<(f64, f64)> {
         let (model, states) = (&self.settled.model, &self.settled.model.states);
         let (size, count) = (self.of_moment(), self.settled.moments.times.len());
-        let mut all = vec![(0.0, 0.0); size * count + states.sought];
+        let mut all = vec![(0.0, 0.0); size * count + states.estimated];
         augmented.backwards(|k, told| {
             let moment = &mut all[k * size..][..size];
             let coordinates = coordinates(self.task, &self.settled.reference, k);
@@ -146,12 +147,12 @@ impl<'a> Asked<'a> {
                 let (moved, deviation) = told.of(&[(states.course(j), 1.0)]);
                 moment[j] = (own + moved, deviation);
             }
-            for (known, id) in moment[states.sought..].iter_mut().zip(&self.shown) {
+            for (known, id) in moment[states.estimated..].iter_mut().zip(&self.shown) {
                 let (moved, deviation) = told.of(model.weights(k, id.index()));
                 *known = (model.reference[k][id.index()] + moved, deviation);
             }
             if k + 1 == count {
-                let areas = (0..states.sought).map(|j| told.of(&[(states.area(j), 1.0)]));
+                let areas = (0..states.estimated).map(|j| told.of(&[(states.area(j), 1.0)]));
                 all[size * count..].iter_mut().zip(areas).for_each(|(known, area)| *known = area);
             }
         });
@@ -164,7 +165,7 @@ impl<'a> Asked<'a> {
     }
 
     fn course(&self, j: usize, mixed: &[(f64, f64)], still: (Known, f64)) -> InferredCourse {
-        let (count, positive) = (self.settled.moments.times.len(), self.task.sought[j].positive);
+        let (count, positive) = (self.settled.moments.times.len(), self.task.estimated[j].positive);
         let coordinate = |k: usize| mixed[k * self.of_moment() + j];
         let band = |k: usize| {
             let (value, deviation) = coordinate(k);
@@ -201,7 +202,7 @@ impl<'a> Asked<'a> {
 
     fn nodes(&self, mixed: &[(f64, f64)]) -> Vec<(NodeId, Vec<Known>)> {
         let (size, count) = (self.of_moment(), self.settled.moments.times.len());
-        let first = self.task.sought.len();
+        let first = self.task.estimated.len();
         let one = |(i, id): (usize, &NodeId)| {
             let known = |k: usize| {
                 let (value, deviation) = mixed[k * size + first + i];

@@ -25,7 +25,7 @@ impl Model {
     /// out, so they have walked before it for as long as after it.
     pub(crate) fn sloped(&self, mut prior: Gaussian, strength: &Strength) -> Gaussian {
         let side = prior.mean.len() + 1;
-        for j in 0..self.states.sought {
+        for j in 0..self.states.estimated {
             let walked = strength.intensities[2 * j + 1] * self.length();
             prior.covariance[self.states.slope(j) * side] += walked;
         }

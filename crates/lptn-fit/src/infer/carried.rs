@@ -19,10 +19,10 @@ pub(crate) fn carried(
         let moved = model.nodes[k][i].iter().map(|(place, weight)| weight * mean[*place]);
         nodes[i] + moved.sum::<f64>()
     };
-    let courses = coordinates(task, reference, k).into_iter().zip(&task.sought).enumerate();
-    let courses = courses.map(|(j, (own, sought))| {
+    let courses = coordinates(task, reference, k).into_iter().zip(&task.estimated).enumerate();
+    let courses = courses.map(|(j, (own, estimated))| {
         let there = own + mean[states.course(j)];
-        vec![if sought.positive { there.exp() } else { there }]
+        vec![if estimated.positive { there.exp() } else { there }]
     });
     let next = Reference {
         courses: courses.collect(),
@@ -49,7 +49,7 @@ pub(crate) fn carried(
             let own = &model.nodes[k][begins.bodies[i].index()];
             own.iter().find(|(place, _)| *place == i).map_or(1.0, |(_, slope)| *slope)
         }
-        i if (0..states.sought).any(|j| states.area(j) == i) => 0.0,
+        i if (0..states.estimated).any(|j| states.area(j) == i) => 0.0,
         _ => 1.0,
     };
     let count = mean.len();

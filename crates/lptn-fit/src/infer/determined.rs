@@ -33,7 +33,7 @@ pub(crate) fn courses(
         augmented.unknowns(model.roots.iter().map(|root| factor(root.before)).collect())
     };
     let wide = by(&|before| if before == Before::Spread { 1.0 } else { 2.0 });
-    let exact = by(&|before| if before == Before::Sought { 1.0 } else { 0.0 });
+    let exact = by(&|before| if before == Before::Estimated { 1.0 } else { 0.0 });
     let told = |((j, part), size): ((usize, Part), &f64)| {
         let of = |unknowns: &crate::kalman::Unknowns| unknowns.known(&part).1;
         let deviation = of(augmented.own());
@@ -47,7 +47,7 @@ pub(crate) fn courses(
 
 /// Each time history at the moment at which it is known best.
 fn narrowest(augmented: &Augmented, states: &States) -> Vec<Part> {
-    let mut best: Vec<Option<(f64, Part)>> = vec![None; states.sought];
+    let mut best: Vec<Option<(f64, Part)>> = vec![None; states.estimated];
     augmented.backwards(|_, estimate| {
         for (j, best) in best.iter_mut().enumerate() {
             let part = estimate.part(&[(states.course(j), 1.0)]);
@@ -70,7 +70,7 @@ fn rivals((model, begins): (&Model, &Begins), follow: &[f64], j: usize) -> Vec<R
         moved.abs() / whole
     };
     let others =
-        unknowns((model, begins)).into_iter().filter(|(_, rival)| *rival != Rival::Sought(j));
+        unknowns((model, begins)).into_iter().filter(|(_, rival)| *rival != Rival::Estimated(j));
     let mut all: Vec<(f64, Rival)> = others.map(|(place, rival)| (moves(place), rival)).collect();
     all.sort_by(|a, b| b.0.total_cmp(&a.0));
     let least = SHARE * all.first().map_or(0.0, |(most, _)| *most);
@@ -82,7 +82,7 @@ fn unknowns((model, begins): (&Model, &Begins)) -> Vec<(usize, Rival)> {
     let states = &model.states;
     let start = |(i, node): (usize, &NodeId)| begins.unknown[i].then_some((i, Rival::Start(*node)));
     let starts = begins.bodies.iter().enumerate().filter_map(start);
-    let courses = (0..states.sought).map(|j| (states.course(j), Rival::Sought(j)));
+    let courses = (0..states.estimated).map(|j| (states.course(j), Rival::Estimated(j)));
     let parameters = (0..states.uncertain).map(|k| (states.parameter(k), Rival::Parameter(k)));
     let reads = states.reads.iter().enumerate();
     let reads = reads

@@ -100,11 +100,13 @@ impl Follower {
     /// column.
     pub fn new(task: InferTask) -> Result<Self, InferError> {
         checked(&task)?;
-        if let Some(sought) = task.sought.iter().find(|sought| sought.intensity.is_none()) {
-            return Err(InferError::Smoothness { signal: sought.name.clone() });
+        if let Some(estimated) =
+            task.estimated.iter().find(|estimated| estimated.intensity.is_none())
+        {
+            return Err(InferError::Smoothness { signal: estimated.name.clone() });
         }
-        if let Some(sought) = task.sought.iter().find(|sought| sought.jumps) {
-            return Err(InferError::Jumps { signal: sought.name.clone() });
+        if let Some(estimated) = task.estimated.iter().find(|estimated| estimated.jumps) {
+            return Err(InferError::Jumps { signal: estimated.name.clone() });
         }
         if let Some(column) = task.run.columns.iter().find(|column| column.sigma.is_none()) {
             return Err(InferError::Noise { column: column.name.clone() });
@@ -286,7 +288,8 @@ fn step(
     (filter, k): (&mut Filter, usize),
     time: f64,
 ) -> Followed {
-    let walks = task.sought.iter().flat_map(|sought| [sought.intensity.unwrap_or(0.0), 0.0]);
+    let walks =
+        task.estimated.iter().flat_map(|estimated| [estimated.intensity.unwrap_or(0.0), 0.0]);
     let strength =
         Strength { intensities: walks.collect(), noises: noises(task), jumps: Vec::new() };
     let mut surprises = vec![f64::NAN; strength.noises.len()];
@@ -298,7 +301,7 @@ fn step(
     let band = |(j, own): (usize, &f64)| {
         let (moved, deviation) = state.of(&[(model.states.course(j), 1.0)]);
         let (value, half) = (own + moved, NORMAL_95 * deviation);
-        let back = |x: f64| if task.sought[j].positive { x.exp() } else { x };
+        let back = |x: f64| if task.estimated[j].positive { x.exp() } else { x };
         Band { value: back(value), ends: (back(value - half), back(value + half)) }
     };
     let node = |i: usize| {

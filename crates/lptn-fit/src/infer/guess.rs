@@ -9,11 +9,11 @@ impl Strength {
     /// given, the intensity of its slope is 0.
     pub(crate) fn guess(task: &InferTask, model: &Model) -> Self {
         let length = model.length();
-        let walk = |(sought, size): (&crate::infer::Sought, &f64)| match sought.intensity {
+        let walk = |(estimated, size): (&crate::infer::Estimated, &f64)| match estimated.intensity {
             Some(intensity) => [intensity, 0.0],
             None => [size * size / length, size * size / length.powi(3)],
         };
-        let intensities = task.sought.iter().zip(&model.sizes).flat_map(walk).collect();
+        let intensities = task.estimated.iter().zip(&model.sizes).flat_map(walk).collect();
         Self { intensities, noises: noises(task), jumps: Vec::new() }
     }
 

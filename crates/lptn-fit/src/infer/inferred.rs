@@ -64,7 +64,7 @@ pub struct InferredCourse {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rival {
     /// Another time history, by its index in the task.
-    Sought(usize),
+    Estimated(usize),
     /// A parameter with a `±`, by its index among the uncertain ones of the task.
     Parameter(usize),
     /// A value of an instrument.

@@ -40,7 +40,8 @@ pub(crate) fn most_likely(
 ) -> Strength {
     let open = Open::of(task, model);
     let found = open.first(start, guessed);
-    let courses: Vec<usize> = (0..task.sought.len()).filter(|j| task.sought[*j].jumps).collect();
+    let courses: Vec<usize> =
+        (0..task.estimated.len()).filter(|j| task.estimated[*j].jumps).collect();
     if courses.is_empty() {
         return open.without_walks(found);
     }

@@ -51,7 +51,7 @@ impl Systems {
             // a logarithm may come near to 0
             let least = course.iter().copied().fold(f64::INFINITY, |a, b| a.min(b.abs()));
             let most = course.iter().copied().fold(0.0, |a: f64, b| a.max(b.abs()));
-            let size = if task.sought[j].positive { least } else { most };
+            let size = if task.estimated[j].positive { least } else { most };
             changed.push(both(&|by| Changed::Course(j, by), size));
         }
         for (k, (own, value)) in task.uncertain.iter().zip(&reference.parameters).enumerate() {
@@ -110,9 +110,9 @@ impl<'a> Linearise<'a> {
         let mut columns: Vec<(usize, Rates)> =
             self.bodies(time, bodies)?.into_iter().enumerate().collect();
         for (i, (both, by)) in self.changed.iter_mut().enumerate() {
-            let place = match i < states.sought {
+            let place = match i < states.estimated {
                 true => states.course(i),
-                false => states.parameter(i - states.sought),
+                false => states.parameter(i - states.estimated),
             };
             let [below, above] = both;
             let found = (below.at(time, bodies)?, above.at(time, bodies)?);
@@ -165,7 +165,7 @@ impl<'a> Linearise<'a> {
             }
             rates[shown * size + shown] -= 1.0 / lag;
         }
-        for j in 0..states.sought {
+        for j in 0..states.estimated {
             rates[states.course(j) * size + states.slope(j)] = 1.0;
             rates[states.area(j) * size + states.course(j)] = 1.0;
         }

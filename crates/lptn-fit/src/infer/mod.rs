@@ -49,4 +49,4 @@ pub use inferred::{
     Band, Inferred, InferredColumn, InferredCourse, InferredJump, InferredSensor, Known, Rival,
 };
 pub use reference::InferObserver;
-pub use task::{Drift, InferTask, Sought, Start, Uncertain};
+pub use task::{Drift, Estimated, InferTask, Start, Uncertain};

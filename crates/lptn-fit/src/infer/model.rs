@@ -87,8 +87,8 @@ impl Model {
         let mut all: Vec<Linear> = Vec::with_capacity(times.len());
         for (k, (&time, there)) in times.iter().zip(&nodes).enumerate() {
             let bodies = look.carried(there)?;
-            let courses = task.sought.iter().zip(&reference.courses);
-            let slopes = courses.map(|(sought, course)| slope(sought.positive, course[k]));
+            let courses = task.estimated.iter().zip(&reference.courses);
+            let slopes = courses.map(|(estimated, course)| slope(estimated.positive, course[k]));
             let uncertain = task.uncertain.iter().zip(&reference.parameters);
             let deviations = uncertain.map(|(own, value)| own.unit(*value));
             let slopes: Vec<f64> = slopes.chain(deviations).collect();
@@ -154,15 +154,15 @@ impl Model {
         let all = self.readings.iter().flatten();
         let farthest = all.map(|read| read.beyond.abs()).fold(0.0, f64::max);
         let noise = task.run.columns.iter().filter_map(|column| column.sigma).fold(0.0, f64::max);
-        let size = |(j, sought): (usize, &crate::infer::Sought)| {
+        let size = |(j, estimated): (usize, &crate::infer::Estimated)| {
             let answer = self.answer(j);
             if !(answer > 0.0 && answer.is_finite()) {
-                return Err(InferError::Unfelt { signal: sought.name.clone() });
+                return Err(InferError::Unfelt { signal: estimated.name.clone() });
             }
             let size = (farthest + noise).max(1e-3) / answer;
-            Ok(if sought.positive { size.min(1.0) } else { size })
+            Ok(if estimated.positive { size.min(1.0) } else { size })
         };
-        task.sought.iter().enumerate().map(size).collect()
+        task.estimated.iter().enumerate().map(size).collect()
     }
 
     /// The farthest reading that a time history of constantly 1 causes.
@@ -341,7 +341,7 @@ impl Read {
 
 /// Coordinates of all time histories at one moment.
 pub(crate) fn coordinates(task: &InferTask, reference: &Reference, k: usize) -> Vec<f64> {
-    let courses = task.sought.iter().zip(&reference.courses);
+    let courses = task.estimated.iter().zip(&reference.courses);
     courses.map(|(s, course)| if s.positive { course[k].ln() } else { course[k] }).collect()
 }
 

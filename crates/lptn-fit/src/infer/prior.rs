@@ -38,7 +38,7 @@ pub(crate) struct Root {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Before {
     /// None: it is an estimated time history.
-    Sought,
+    Estimated,
     /// None: its deviation is an assumption.
     Nothing,
     /// Its standard deviation.
@@ -149,7 +149,7 @@ impl Begins {
             root(Before::Spread, &entries);
         }
         for (j, spread) in spreads.iter().enumerate() {
-            root(Before::Sought, &[(states.course(j), *spread)]);
+            root(Before::Estimated, &[(states.course(j), *spread)]);
         }
         for (r, read) in states.reads.iter().enumerate() {
             let sensor = &task.sensors[read.sensor];

@@ -103,7 +103,7 @@ impl Reference {
         }
         let network = task.network.with(&parameters).map_err(ChangeError::from)?;
         let mut signals = task.inputs();
-        for (j, (sought, course)) in task.sought.iter().zip(&self.courses).enumerate() {
+        for (j, (estimated, course)) in task.estimated.iter().zip(&self.courses).enumerate() {
             let more = if let Changed::Course(of, by) = changed
                 && of == j
             {
@@ -111,7 +111,8 @@ impl Reference {
             } else {
                 0.0
             };
-            signals.push((sought.signal, line(times, course.iter().map(|s| s + more).collect())));
+            signals
+                .push((estimated.signal, line(times, course.iter().map(|s| s + more).collect())));
         }
         Ok(network.recorded(&signals, &self.initial).map_err(ChangeError::from)?)
     }

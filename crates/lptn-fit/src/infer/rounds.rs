@@ -128,14 +128,14 @@ pub(crate) fn checked(task: &InferTask) -> Result<(), InferError> {
 fn own(task: &InferTask, moments: &Moments) -> Result<Reference, InferError> {
     let network = task.network.with(&task.run.parameters).map_err(ChangeError::from)?;
     let network = network.recorded(&task.inputs(), &[]).map_err(ChangeError::from)?;
-    let course = |sought: &crate::infer::Sought| {
-        let course = Reference::own(&network, sought.signal, &moments.times);
-        match course.iter().find(|value| sought.positive && value.is_nan() | (**value <= 0.0)) {
-            Some(&value) => Err(InferError::NotPositive { signal: sought.name.clone(), value }),
+    let course = |estimated: &crate::infer::Estimated| {
+        let course = Reference::own(&network, estimated.signal, &moments.times);
+        match course.iter().find(|value| estimated.positive && value.is_nan() | (**value <= 0.0)) {
+            Some(&value) => Err(InferError::NotPositive { signal: estimated.name.clone(), value }),
             None => Ok(course),
         }
     };
-    let courses = task.sought.iter().map(course).collect::<Result<_, _>>()?;
+    let courses = task.estimated.iter().map(course).collect::<Result<_, _>>()?;
     let parameters = task.uncertain.iter();
     let parameters = parameters.map(|own| network.parameter_value(own.parameter)).collect();
     let reads = crate::infer::states::reads(task).iter().map(|read| read.known.0).collect();
@@ -153,9 +153,9 @@ fn moved(
     let mut next = reference.clone();
     for (k, known) in smoothed.iter().enumerate() {
         let coordinates = coordinates(task, reference, k);
-        for (j, sought) in task.sought.iter().enumerate() {
+        for (j, estimated) in task.estimated.iter().enumerate() {
             let there = coordinates[j] + share * known[states.course(j)].0;
-            next.courses[j][k] = if sought.positive { there.exp() } else { there };
+            next.courses[j][k] = if estimated.positive { there.exp() } else { there };
         }
     }
     let (first, last) = (&smoothed[0], &smoothed[smoothed.len() - 1]);
@@ -183,7 +183,7 @@ fn distance(
     let mut far = unmoving((task, model), (reference, next), &smoothed[smoothed.len() - 1]);
     for (k, known) in smoothed.iter().enumerate() {
         let (from, to) = (coordinates(task, reference, k), coordinates(task, next, k));
-        for j in 0..states.sought {
+        for j in 0..states.estimated {
             let deviation = known[states.course(j)].1;
             let rounding = 1e-9 * to[j].abs();
             far = far.max(((to[j] - from[j]).abs() - rounding).max(0.0) / deviation.max(1e-300));

@@ -29,7 +29,8 @@ pub(crate) struct Open<'a> {
 
 /// Indices of the intensities that are not given.
 pub(crate) fn open_walks(task: &InferTask) -> Vec<usize> {
-    let open = task.sought.iter().enumerate().filter(|(_, sought)| sought.intensity.is_none());
+    let open =
+        task.estimated.iter().enumerate().filter(|(_, estimated)| estimated.intensity.is_none());
     open.flat_map(|(j, _)| [2 * j, 2 * j + 1]).collect()
 }
 

@@ -30,7 +30,7 @@ pub(crate) struct States {
     /// The columns whose instrument is slow, with its time constant in s.
     pub(crate) slow: Vec<(usize, f64)>,
     /// Number of estimated time histories.
-    pub(crate) sought: usize,
+    pub(crate) estimated: usize,
     /// Number of uncertain parameters.
     pub(crate) uncertain: usize,
     /// The values of instruments.
@@ -51,7 +51,7 @@ impl States {
         Self {
             bodies,
             slow: slow.collect(),
-            sought: task.sought.len(),
+            estimated: task.estimated.len(),
             uncertain: task.uncertain.len(),
             reads: reads(task),
             drifts: drifts(task),
@@ -71,22 +71,22 @@ impl States {
 
     /// Its slope, without the steps of its walk.
     pub(crate) fn slope(&self, j: usize) -> usize {
-        self.course(self.sought) + j
+        self.course(self.estimated) + j
     }
 
     /// The integral of its distance from the reference over time.
     pub(crate) fn area(&self, j: usize) -> usize {
-        self.slope(self.sought) + j
+        self.slope(self.estimated) + j
     }
 
     /// The states that walk: each time history, and its slope.
     pub(crate) fn walks(&self) -> Vec<usize> {
-        (0..self.sought).flat_map(|j| [self.course(j), self.slope(j)]).collect()
+        (0..self.estimated).flat_map(|j| [self.course(j), self.slope(j)]).collect()
     }
 
     /// An uncertain parameter, or its logarithm, over its standard deviation.
     pub(crate) fn parameter(&self, k: usize) -> usize {
-        self.area(self.sought) + k
+        self.area(self.estimated) + k
     }
 
     /// Number of states that change, or make others change.

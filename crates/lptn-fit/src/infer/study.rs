@@ -1,12 +1,12 @@
 //! From an `[infer.NAME]` of a netlist to a task.
 
 use lptn_assembly::ChangeError;
-use lptn_netlist::{InferStart, InferStudy, Netlist, SoughtSignal};
+use lptn_netlist::{EstimatedSignal, InferStart, InferStudy, Netlist};
 use lptn_network::ParameterId;
 use lptn_units::Dimension;
 
 use crate::infer::error::InferError;
-use crate::infer::task::{Drift, InferTask, Sought, Start, Uncertain};
+use crate::infer::task::{Drift, Estimated, InferTask, Start, Uncertain};
 use crate::network::plan::weights;
 use crate::network::{Instrument, NetworkFitError, NetworkFitTask};
 
@@ -21,17 +21,17 @@ impl InferTask {
         let network = &netlist.network;
         let mut read = NetworkFitTask::of(netlist, &study.reads, 1)?;
         let changes = study.changes(network)?;
-        let sought = |(sought, change): (&SoughtSignal, Option<f64>)| {
-            let place = network.signals().iter().position(|own| own.name == sought.name)?;
-            Some(Sought {
+        let estimated = |(estimated, change): (&EstimatedSignal, Option<f64>)| {
+            let place = network.signals().iter().position(|own| own.name == estimated.name)?;
+            Some(Estimated {
                 signal: network.signal_ids().nth(place)?,
-                name: sought.name.clone(),
-                positive: sought.positive,
+                name: estimated.name.clone(),
+                positive: estimated.positive,
                 intensity: change.map(|change| change * change),
-                jumps: sought.jumps,
+                jumps: estimated.jumps,
             })
         };
-        let sought = study.sought.iter().zip(changes).filter_map(sought).collect();
+        let estimated = study.estimated.iter().zip(changes).filter_map(estimated).collect();
         let start = match study.start {
             InferStart::Network => Start::Known,
             InferStart::Record => Start::Measured,
@@ -62,7 +62,7 @@ impl InferTask {
             network: network.clone(),
             run,
             sensors: read.sensors,
-            sought,
+            estimated,
             uncertain,
             together,
             start,

@@ -15,7 +15,7 @@ pub struct InferTask {
     /// The instruments that columns name.
     pub sensors: Vec<Instrument>,
     /// The estimated signals, each once.
-    pub sought: Vec<Sought>,
+    pub estimated: Vec<Estimated>,
     /// Parameters that are not known exactly. The record updates them too.
     pub uncertain: Vec<Uncertain>,
     /// Their correlations.
@@ -73,7 +73,7 @@ impl Uncertain {
 
 /// A signal with a time history to be estimated: a random walk, or one of its logarithm.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sought {
+pub struct Estimated {
     /// The signal.
     pub signal: SignalId,
     /// Its name.

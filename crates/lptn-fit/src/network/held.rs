@@ -46,7 +46,7 @@ impl NetworkFitTask {
 impl NetworkFitTask {
     /// True if some unknown changes runs by their starts or inputs, so that its derivatives are
     /// differences.
-    pub(crate) fn has_inputs_sought(&self, unknowns: &[Unknown]) -> bool {
+    pub(crate) fn has_inputs_estimated(&self, unknowns: &[Unknown]) -> bool {
         let changes = |run: usize, unknown: &Unknown| self.runs[run].change(run, unknown).is_some();
         (0..self.runs.len()).any(|run| unknowns.iter().any(|unknown| changes(run, unknown)))
     }
@@ -92,5 +92,5 @@ pub(crate) fn unknown_input<'s>(
     sensors: &'s [Instrument],
 ) -> Option<&'s Instrument> {
     let mut all = run.signals.iter().filter_map(|signal| sensors.get(signal.sensor?));
-    all.find(|sensor| sensor.offset.is_sought() || sensor.gain.is_sought())
+    all.find(|sensor| sensor.offset.is_estimated() || sensor.gain.is_estimated())
 }

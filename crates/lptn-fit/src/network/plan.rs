@@ -121,7 +121,7 @@ impl Begun<'_> {
             }
             let sensor = self.sensor(own.sensor.as_ref().or_else(|| self.sensor_of(&own.column)));
             if let Some(slow) = sensor.map(|sensor| &self.sensors[sensor])
-                && (slow.lag.value > 0.0 || slow.lag.is_sought())
+                && (slow.lag.value > 0.0 || slow.lag.is_estimated())
             {
                 let sensor = slow.name.clone();
                 return Err(NetworkFitError::SignalLag { column, sensor });

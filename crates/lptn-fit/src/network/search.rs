@@ -101,7 +101,7 @@ pub(crate) fn search<'a>(
     let exact = exactly(coordinates, (gradient, model.error()));
     let estimate = minimise(&mut model, &ends[best].parameters, &exact);
     let estimate = estimate.map_err(|error| model.ended(error))?;
-    let exact = gradient == Gradient::Exact && !task.has_inputs_sought(unknowns);
+    let exact = gradient == Gradient::Exact && !task.has_inputs_estimated(unknowns);
     let outcome = outcome(&estimate, model.error(), exact);
     let accuracy = accuracy(gradient);
     let searches = coarse.evaluations;

@@ -130,9 +130,9 @@ impl NetworkFitTask {
             parameters: self.parameters.iter().copied().chain(held).collect(),
             ..self.clone()
         };
-        let sought = task.unknowns();
+        let estimated = task.unknowns();
         let is_held = |own: &&Unknown| unknowns.iter().all(|unknown| unknown.of != own.of);
-        let held: Vec<&Unknown> = sought.iter().filter(is_held).collect();
+        let held: Vec<&Unknown> = estimated.iter().filter(is_held).collect();
         let one = |&run: &usize| {
             let (mut unknowns, mut values) = (unknowns.to_vec(), values.to_vec());
             for own in &held {

@@ -130,7 +130,7 @@ impl NetworkFitTask {
         let mut values: Vec<_> = records.into_iter().map(offset).collect();
         values.push((UnknownOf::Gain { sensor }, instrument.gain, Type::SCALAR));
         values.push((UnknownOf::Lag { sensor }, instrument.lag, Type::of(Dimension::TIME)));
-        let sought = values.into_iter().filter(|(_, value, _)| value.is_sought());
+        let estimated = values.into_iter().filter(|(_, value, _)| value.is_estimated());
         let unknown = |(of, value, ty): (UnknownOf, lptn_netlist::SensorValue, Type)| Unknown {
             of,
             name: format!("{}.{}", instrument.name, word(of)),
@@ -147,7 +147,7 @@ impl NetworkFitTask {
             distribution: Distribution::Normal,
             ty,
         };
-        sought.map(unknown).collect()
+        estimated.map(unknown).collect()
     }
 }
 

@@ -137,7 +137,7 @@ impl<'a> Elaboration<'a> {
     ) {
         for record in records {
             for (name, _) in &record.set {
-                let Some(sought) = varied.iter().find(|varied| varied.name == *name) else {
+                let Some(estimated) = varied.iter().find(|varied| varied.name == *name) else {
                     continue;
                 };
                 let message = format!(
@@ -146,7 +146,7 @@ impl<'a> Elaboration<'a> {
                     record.csv
                 );
                 let problem = Diagnostic::error("netlist::fit_set_and_varied", message)
-                    .at(sought.span.clone(), "varied")
+                    .at(estimated.span.clone(), "varied")
                     .also(record.span.clone(), "set for this record");
                 self.report(
                     problem.help(format!("leave `{name}` out of `vary`, or out of every `set`")),

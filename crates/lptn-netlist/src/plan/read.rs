@@ -43,7 +43,7 @@ impl<'a> Elaboration<'a> {
             return None;
         }
         let (known, varied) = (known?, varied?);
-        self.set_and_sought(&runs, &known, &varied)?;
+        self.set_and_estimated(&runs, &known, &varied)?;
         let (run_cost, hour_cost) = cost?;
         Some(PlanStudy {
             name: entry.key.clone(),
@@ -267,17 +267,19 @@ impl<'a> Elaboration<'a> {
     }
 
     /// Refuses runs that set a parameter to be estimated, which has one value.
-    fn set_and_sought(
+    fn set_and_estimated(
         &mut self,
         runs: &[PlanRun],
         known: &[Target],
         varied: &[(String, Span)],
     ) -> Option<()> {
-        let sought = known.iter().map(|target| (&target.name, &target.span));
-        let sought: Vec<_> = sought.chain(varied.iter().map(|(name, span)| (name, span))).collect();
+        let estimated = known.iter().map(|target| (&target.name, &target.span));
+        let estimated: Vec<_> =
+            estimated.chain(varied.iter().map(|(name, span)| (name, span))).collect();
         for run in runs {
             for (name, _) in &run.set {
-                let Some((_, span)) = sought.iter().find(|(sought, _)| *sought == name) else {
+                let Some((_, span)) = estimated.iter().find(|(estimated, _)| *estimated == name)
+                else {
                     continue;
                 };
                 let message = format!(

@@ -28,22 +28,24 @@ impl SizeStudy {
 
     /// Checks that an optimised parameter is varied, or follows from one that is.
     pub(super) fn check_objective(&self, network: &Network) -> Option<Diagnostic> {
-        let sought = &self.objective.text;
-        let id = network.parameter(sought).ok()?;
+        let objective = &self.objective.text;
+        let id = network.parameter(objective).ok()?;
         let columns = self.catalogues.iter().flat_map(|one| &one.columns);
         let mut set = columns.map(|one| &one.name).chain(self.varied.iter().map(|one| &one.name));
         let follows = !matches!(network.parameters()[id.index()].value, Value::Constant(_));
-        if follows || set.any(|name| name == sought) {
+        if follows || set.any(|name| name == objective) {
             return None;
         }
         let varied = self.varied.first().map(|one| &one.span);
         let place = varied.or(self.catalogues.first().map(|one| &one.span))?;
-        let message = format!("size `{}` optimises `{sought}`, which nothing varies", self.name);
+        let message = format!("size `{}` optimises `{objective}`, which nothing varies", self.name);
         let help = match self.catalogues.is_empty() {
             true => format!(
-                "write it like this: `vary = {{ {sought} = {{ from = \"..\", to = \"..\" }} }}`"
+                "write it like this: `vary = {{ {objective} = {{ from = \"..\", to = \"..\" }} }}`"
             ),
-            false => format!("give a catalogue a column `{sought}`, or optimise one that it has"),
+            false => {
+                format!("give a catalogue a column `{objective}`, or optimise one that it has")
+            }
         };
         Some(Diagnostic::wrong("netlist::size_vary", message, place, help))
     }

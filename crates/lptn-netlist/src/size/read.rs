@@ -37,12 +37,12 @@ impl<'a> Elaboration<'a> {
         let fields = self.fields(&SIZE, entry)?;
         let over = self.over(&fields);
         let steady = over.as_ref().is_none_or(|(over, _)| *over == Over::Steady);
-        let sought = self.goal(&fields, steady);
+        let objective = self.goal(&fields, steady);
         let varied = self.varied_or_chosen(&fields);
         let requirements = self.requirements(&fields, steady);
         let cases = self.cases_of(&fields);
         let probability = self.optional_setting(&fields, "probability");
-        let ((goal, objective), (varied, catalogues)) = (sought?, varied?);
+        let ((goal, objective), (varied, catalogues)) = (objective?, varied?);
         let (over, period) = over?;
         let cases = cases?;
         let columns = catalogues.iter().flat_map(|one| &one.columns).map(|one| &one.name);

@@ -116,7 +116,7 @@ fn a_film_without_a_slope_is_left_from_warmer_temperatures() {
 
 /// If there are several solutions, a warmer start may find another one.
 #[test]
-fn several_solutions_are_not_sought_from_warmer_temperatures() {
+fn several_solutions_are_not_searched_from_warmer_temperatures() {
     let system =
         ThermalSystem::assemble(&bodies(&[(100.0, "1 [W]"), (0.0, STEP)], Some("2 [W/K]")));
     let system = system.unwrap();

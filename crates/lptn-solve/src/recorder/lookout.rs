@@ -30,7 +30,7 @@ pub(super) struct Lookout {
     /// The highest temperature in K of all up to now, if only the hottest counts.
     highest: Option<f64>,
     /// Number of steps in which a node was evaluated more closely.
-    sought: u64,
+    searched: u64,
 }
 
 impl Lookout {
@@ -42,7 +42,7 @@ impl Lookout {
             points: Default::default(),
             levels: settings.watch.iter().any(|watch| watch.level.is_some()),
             highest: settings.hottest_only.then_some(f64::NEG_INFINITY),
-            sought: 0,
+            searched: 0,
         }
     }
 
@@ -90,7 +90,7 @@ impl Lookout {
                 continue;
             }
             let points: [(f64, f64); POINTS] = std::array::from_fn(|k| (times[k], values[k]));
-            self.sought += 1;
+            self.searched += 1;
             seen.go_to(points[0]);
             seen.look(&points);
             tops.extend(seen.top(step, &values, &points).map(|top| (i, top)));
@@ -107,8 +107,8 @@ impl Lookout {
     }
 
     /// Number of steps in which a node was evaluated more closely.
-    pub(super) fn sought(&self) -> u64 {
-        self.sought
+    pub(super) fn searched(&self) -> u64 {
+        self.searched
     }
 
     pub(super) fn node(&self, watched: usize) -> NodeId {

@@ -153,7 +153,7 @@ impl Judged {
 pub(crate) struct Judge<'a> {
     pub(super) demand: Demand<'a>,
     /// The objective, if it reads results.
-    sought: Option<Aim<'a>>,
+    aim: Option<Aim<'a>>,
     pub(super) base: Network,
     /// The nodes that the requirements read, if a probability is required.
     pub(super) read: NodesRead,
@@ -168,7 +168,7 @@ impl<'a> Judge<'a> {
     }
 
     /// The same; the objective is read from each steady state.
-    pub(crate) fn seeking(demand: Demand<'a>, sought: Option<Aim<'a>>) -> Result<Self, SizeError> {
+    pub(crate) fn seeking(demand: Demand<'a>, aim: Option<Aim<'a>>) -> Result<Self, SizeError> {
         if demand.requirements.is_empty() {
             return Err(SizeError::NoRequirement);
         }
@@ -179,7 +179,7 @@ impl<'a> Judge<'a> {
         let base = match demand.moments {
             Moments::Steady(_) => {
                 let required = demand.requirements.iter().flat_map(Requirement::sides);
-                let required: Vec<_> = required.chain(sought.map(|aim| aim.value)).collect();
+                let required: Vec<_> = required.chain(aim.map(|aim| aim.value)).collect();
                 let with_signals = demand.cases.iter().filter(|case| !case.signals.is_empty());
                 let of_cases =
                     with_signals.filter_map(|case| case.network(demand.network, &[]).ok());
@@ -197,7 +197,7 @@ impl<'a> Judge<'a> {
         let limits: Vec<Limit> = limits.collect();
         let read = NodesRead::of(&base, if demand.doubt.is_some() { &limits } else { &[] });
         let base = base.requiring(limits);
-        Ok(Self { demand, sought, base, read, count: AtomicUsize::new(0) })
+        Ok(Self { demand, aim, base, read, count: AtomicUsize::new(0) })
     }
 
     /// Number of networks that were solved.
@@ -228,7 +228,7 @@ impl<'a> Judge<'a> {
             all.unproven = all.unproven.or(one.unproven);
             all.out_of_range.extend(one.out_of_range);
             all.error = all.error.max(one.error);
-            all.objective = match (all.objective, one.objective, self.sought) {
+            all.objective = match (all.objective, one.objective, self.aim) {
                 (Some(a), Some(b), Some(aim)) => Some(aim.worse(a, b)),
                 (a, b, _) => a.or(b),
             };
@@ -336,14 +336,14 @@ impl<'a> Judge<'a> {
         };
         let requirements = self.demand.requirements;
         let margins = requirements.iter().map(margin).collect::<Result<_, _>>()?;
-        let sought = self.sought.map(|aim| finite(aim.value.at(&mut scope))).transpose();
+        let aim = self.aim.map(|aim| finite(aim.value.at(&mut scope))).transpose();
         let at = |node: &NodeId| [answer.state.temperatures[node.index()]; 2];
         Ok(Judged {
             margins,
             reached: self.read.nodes.iter().flat_map(at).collect(),
             worst_at: vec![None; requirements.len()],
             out_of_range: answer.trust.out_of_range,
-            objective: sought.map_err(TrialError::Objective)?,
+            objective: aim.map_err(TrialError::Objective)?,
             ..Judged::default()
         })
     }

@@ -262,7 +262,7 @@ impl FitNetworkAnswer {
     }
 
     /// Indices of network parameters among the estimated quantities, and indices of sensor values.
-    fn sought(&self) -> (Vec<usize>, Vec<usize>) {
+    fn estimated(&self) -> (Vec<usize>, Vec<usize>) {
         (0..self.unknowns.len()).partition(|&i| self.unknowns[i].parameter().is_some())
     }
 

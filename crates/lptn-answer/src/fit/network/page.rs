@@ -14,7 +14,7 @@ use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
 use super::units::common;
-use super::words::{combination, sought, state, type_of, verdict};
+use super::words::{combination, estimated, state, type_of, verdict};
 use super::{FitNetworkAnswer, shared_noise};
 use crate::messages;
 use crate::words::{count, symbol, unverified};
@@ -22,7 +22,7 @@ use crate::words::{count, symbol, unverified};
 impl FitNetworkAnswer {
     /// The values of parameters and of sensors.
     pub(super) fn values(&self, text: &mut Text) {
-        let (parameters, of_sensors) = self.sought();
+        let (parameters, of_sensors) = self.estimated();
         text.section().table(values(self, &parameters));
         if !of_sensors.is_empty() {
             text.section().table(sensors(self, &of_sensors));
@@ -45,7 +45,7 @@ impl Page for FitNetworkAnswer {
         text.line(format!(
             "fit {}: {} to {} of {}",
             self.study.name,
-            sought(self),
+            estimated(self),
             count(fit.samples(), "value"),
             count(self.task.runs.len(), "record")
         ));
@@ -94,7 +94,7 @@ impl Page for FitNetworkAnswer {
         let (netlist, fit) = (&self.input.netlist, &self.fit);
         let warnings = [netlist.warnings.as_slice(), &self.doubts].concat();
         let all = 0..fit.parameters.len();
-        let (parameters, of_sensors) = self.sought();
+        let (parameters, of_sensors) = self.estimated();
         let values = |of: &[usize]| -> Map<String, Value> {
             of.iter().map(|&i| (self.name(i).to_owned(), parameter(self, i))).collect()
         };

@@ -298,15 +298,15 @@ pub(crate) fn verdict(answer: &FitNetworkAnswer) -> String {
     };
     let text = match answer.fit.parameters.iter().filter(|p| p.on_bound.is_some()).count() {
         0 if count == 1 => format!("{by} determine the parameter"),
-        0 => format!("{by} determine the {}", sought(answer)),
+        0 => format!("{by} determine the {}", estimated(answer)),
         on => format!("{} of {count} parameters determined, {on} on a bound", count - on),
     };
     text + unchecked(answer)
 }
 
 /// "6 parameters and 3 values of sensors".
-pub(super) fn sought(answer: &FitNetworkAnswer) -> String {
-    let (parameters, of_sensors) = answer.sought();
+pub(super) fn estimated(answer: &FitNetworkAnswer) -> String {
+    let (parameters, of_sensors) = answer.estimated();
     let parameters = number(parameters.len(), "parameter");
     match of_sensors.len() {
         0 => parameters,

@@ -101,7 +101,7 @@ impl DesignTask {
         let candidates = numbers.runs.iter();
         let candidates = candidates.map(|run| planned(run, &settings, (&columns, numbers.every)));
         let runs: Vec<MeasuredRun> = given.runs.iter().cloned().chain(candidates).collect();
-        let parameters = sought(netlist, (&numbers, &given));
+        let parameters = estimated(netlist, (&numbers, &given));
         settable(netlist, study, &parameters)?;
         let ids: Vec<ParameterId> = parameters.iter().map(|varied| varied.parameter).collect();
         let correlations = netlist.overrides().correlations_of(&ids);
@@ -168,7 +168,7 @@ impl DesignTask {
 
 /// Parameters to be estimated: those with a target, the other unknowns, and those that existing
 /// records were fitted with. The records inform about all of these together, and about none alone.
-fn sought(netlist: &Netlist, (numbers, given): (&PlanNumbers, &Given)) -> Vec<Varied> {
+fn estimated(netlist: &Netlist, (numbers, given): (&PlanNumbers, &Given)) -> Vec<Varied> {
     let mut ids: Vec<ParameterId> = numbers.known.iter().map(|(id, _)| *id).collect();
     for id in numbers.varied.iter().chain(given.values.iter().map(|(id, _)| id)) {
         if !ids.contains(id) {
@@ -187,12 +187,12 @@ fn sought(netlist: &Netlist, (numbers, given): (&PlanNumbers, &Given)) -> Vec<Va
 }
 
 /// Checks that no run and no existing record sets a parameter to be estimated.
-fn settable(netlist: &Netlist, study: &PlanStudy, sought: &[Varied]) -> Result<(), DesignError> {
+fn settable(netlist: &Netlist, study: &PlanStudy, estimated: &[Varied]) -> Result<(), DesignError> {
     let given = |fit: &&FitStudy| study.given.contains(&fit.name);
     let fits = netlist.studies.fits.iter().filter(given);
     let records: Vec<(&FitStudy, &FitRecord)> =
         fits.flat_map(|fit| fit.records.iter().map(move |record| (fit, record))).collect();
-    for varied in sought {
+    for varied in estimated {
         let name = &netlist.network.parameters()[varied.parameter.index()].name;
         let run = study.runs.iter().find(|run| run.sets(name));
         let run = run.map(|run| format!("run `{}`", run.name));

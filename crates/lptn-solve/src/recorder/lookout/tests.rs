@@ -39,13 +39,13 @@ fn a_curve_reaches_as_far_beyond_its_highest_point_as_its_points_are_apart() {
 
 /// One with a top between its points, one constant, one that falls.
 #[test]
-fn tops_are_sought_where_a_curve_may_be_higher_than_it_was() {
+fn tops_are_searched_where_a_curve_may_be_higher_than_it_was() {
     let mut watched = lookout([None; 3], false);
     assert!(!watched.is_empty());
     let curves = |x: f64| [310.0 - (x - 0.2) * (x - 0.2), 301.0, 300.0 - 2.0 * x];
     watched.start(2.0, &curves(-1.0));
     let tops = step(&mut watched, (2.0, 12.0), curves);
-    assert_eq!((tops.len(), tops[0].0, watched.sought()), (1, 0, 2));
+    assert_eq!((tops.len(), tops[0].0, watched.searched()), (1, 0, 2));
     let (height, time) = tops[0].1;
     assert!((height - 310.0).abs() < 1e-9 && (time - 8.0).abs() < 1e-6, "{height} {time}");
     watched.peak_at(0, (time, height));
@@ -53,7 +53,7 @@ fn tops_are_sought_where_a_curve_may_be_higher_than_it_was() {
     let falls =
         |x: f64| [309.3 - 0.1 * (x + 1.0), 301.0 - 0.1 * (x + 1.0), 298.0 - 0.1 * (x + 1.0)];
     assert!(step(&mut watched, (12.0, 20.0), falls).is_empty());
-    assert_eq!(watched.sought(), 3);
+    assert_eq!(watched.searched(), 3);
     let seen = watched.into_seen();
     assert_eq!(seen.len(), 3);
     let peaks = [seen[0].peak.0, seen[1].peak.0, seen[2].peak.0];
@@ -68,17 +68,17 @@ fn tops_are_sought_where_a_curve_may_be_higher_than_it_was() {
 
 /// A level is searched for if it may be crossed, however far below its peak a node is.
 #[test]
-fn a_level_is_sought_where_it_may_be_crossed() {
+fn a_level_is_searched_where_it_may_be_crossed() {
     let mut watched = lookout([Some(305.0), None, Some(280.0)], false);
     watched.start(0.0, &[400.0; 3]);
     watched.start(0.0, &[320.0; 3]);
     let line = |from: f64, to: f64| move |x: f64| [from + 0.5 * (to - from) * (x + 1.0); 3];
     step(&mut watched, (0.0, 10.0), line(320.0, 311.0));
-    assert_eq!(watched.sought(), 0);
+    assert_eq!(watched.searched(), 0);
     step(&mut watched, (10.0, 20.0), line(311.0, 301.0));
-    assert_eq!(watched.sought(), 1);
+    assert_eq!(watched.searched(), 1);
     step(&mut watched, (20.0, 30.0), line(301.0, 299.0));
-    assert_eq!(watched.sought(), 1);
+    assert_eq!(watched.searched(), 1);
     let seen = watched.into_seen();
     assert!((seen[0].crossed.unwrap() - 16.0).abs() < 1e-9, "{:?}", seen[0]);
     assert_eq!((seen[1].crossed, seen[2].crossed), (None, None));
@@ -86,17 +86,17 @@ fn a_level_is_sought_where_it_may_be_crossed() {
 
 /// If only the hottest counts, one that another has exceeded is skipped.
 #[test]
-fn only_what_may_be_the_hottest_is_sought() {
+fn only_what_may_be_the_hottest_is_searched() {
     let rising = |x: f64| [300.0 + 5.0 * (x + 1.0), 340.0, 335.0 + (x + 1.0)];
-    for (hottest_only, sought) in [(false, 2), (true, 1)] {
+    for (hottest_only, searched) in [(false, 2), (true, 1)] {
         let mut watched = lookout([None; 3], hottest_only);
         watched.start(0.0, &rising(-1.0));
         step(&mut watched, (0.0, 10.0), rising);
         // the first reaches up to 320 K, the third to 339 K
-        assert_eq!(watched.sought(), if hottest_only { 0 } else { sought });
+        assert_eq!(watched.searched(), if hottest_only { 0 } else { searched });
         step(&mut watched, (10.0, 20.0), |x| [310.0, 340.0, 337.0 + 2.0 * (x + 1.0)]);
-        let more = if hottest_only { 1 } else { sought + 1 };
-        assert_eq!(watched.sought(), more, "up to 345 K");
+        let more = if hottest_only { 1 } else { searched + 1 };
+        assert_eq!(watched.searched(), more, "up to 345 K");
         assert!((watched.into_seen()[2].peak.0 - 341.0).abs() < 1e-12);
     }
     // below the hottest by more than rounding
