@@ -196,3 +196,32 @@ fn the_shipped_records_choose_their_law() {
         .prints("proportional to the speed")
         .prints("systematic: capacity 4.3");
 }
+
+/// The step begins 60 s after the first row of two of seven records: one exponential from the first
+/// row on has another time constant than 100 s, as in `lptn fit step`. A bed that follows the ring
+/// by a tenth changes by a tenth of dT.
+#[test]
+fn a_folder_warns_of_what_one_record_warns() {
+    let folder = whole();
+    let warns = |ran: &common::Ran, code: &str| ran.err.contains(code);
+    let plain = folder.run(&RUN).exits(0);
+    assert!(!warns(&plain, "fit::late_start") && !warns(&plain, "fit::drift"), "{}", plain.err);
+    let on_bed = folder.run(&[&RUN[..], &["--reference", "bed"]].concat());
+    on_bed.exits(0).says("fit::drift").says("column `ring`").says("in 7 of 7 records");
+    for (name, rpm) in [("1000rpm.csv", 1000.0), ("c.csv", 3000.0)] {
+        let text = record("", rpm);
+        let (head, rows) = text.split_once('\n').unwrap();
+        // noise that is less than 2 % of the rise: a constant is the end of an instrument's range
+        let noise = |t: i32| 0.05 * f64::from(t % 3);
+        let still = (0..60).map(|t| format!("{t},{},{}\n", 24.75 + noise(t), 25.25 + noise(t)));
+        let moved = rows.lines().map(|line| {
+            let (time, values) = line.split_once(',').unwrap();
+            format!("{},{values}\n", time.parse::<f64>().unwrap() + 60.0)
+        });
+        let text: String = still.chain(moved).collect();
+        folder.write(&format!("records/{name}"), &format!("{head}\n{text}"));
+    }
+    let late = folder.run(&RUN).exits(0);
+    late.says("fit::late_start").says("column `ring`").says("2 of 7 records").says("until 6");
+    folder.run(&["fit", "step", "records/c.csv", "--column", "ring"]).says("fit::late_start");
+}

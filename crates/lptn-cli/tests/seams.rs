@@ -190,3 +190,31 @@ fn the_end_of_a_rod_is_a_face() {
     folder.write("wrong.toml", &rod(", area = \"1 m^2\""));
     folder.run(&["run", "wrong.toml"]).exits(2).says("area");
 }
+
+/// A wire that is connected after 400 s gives its node no reading for the start: the record and the
+/// time are named. From 400 s on every node has one.
+#[test]
+fn a_node_that_begins_at_a_later_reading_is_named() {
+    let text = "format = 1\n[param]\nR = '0.3 K/W'\n[node]\na = { C = '2 kJ/K', T0 = '20 degC' }\nb \
+                = { C = '2 kJ/K', T0 = '20 degC' }\n[boundary]\nroom = { T = '20 degC' \
+                }\n[resistor]\nra = { from = 'a', to = 'room', R = 'R' }\nrb = { from = 'b', to = \
+                'room', R = 'R' }\n[fit.cooling]\ndata = 'r.csv'\ncolumn = { a = 'a.T', b = 'b.T' \
+                }\nvary = ['R']\ninitial = 'record'\n";
+    let folder = Folder::with("x.toml", text);
+    let row = |from: f64, t: f64| {
+        let left = f64::exp(-t / 800.0);
+        let b = if t < 400.0 { String::new() } else { (20.0 + 70.0 * left).to_string() };
+        let late = t >= from;
+        late.then(|| format!("{t},{},{b}\n", 20.0 + 50.0 * left)).unwrap_or_default()
+    };
+    let write = |from: f64| {
+        let rows: String = (0..200).map(|k| row(from, 10.0 * f64::from(k))).collect();
+        folder.write("r.csv", &format!("t [s],a [degC],b [degC]\n{rows}"));
+        folder.run(&["fit", "network", "x.toml"]).exits(0)
+    };
+    let ran =
+        write(0.0).says("fit::late_reading").says("`b` begins at 0 s with a reading of 400 s");
+    assert_eq!(ran.err.matches("fit::late_reading").count(), 1, "{}", ran.err);
+    let ran = write(400.0);
+    assert!(!ran.err.contains("fit::late_reading") && ran.out.contains("0.4"), "{}", ran.out);
+}

@@ -25,6 +25,7 @@ mod infer_determined;
 mod infer_follow;
 mod infer_inputs;
 mod infer_noise;
+mod late_records;
 mod law;
 mod law_consistency;
 mod law_coverage;

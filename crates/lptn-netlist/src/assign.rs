@@ -40,10 +40,11 @@ impl Netlist {
         let mut files = self.files.clone();
         let file = files.add(FILE, assignments.join("\n"));
         let mut new = self.assigned.clone();
-        let result =
-            self.assign(assignments, file, &mut new).and_then(|done| self.evaluate(&new, &done));
-        match result {
-            Ok((network, run)) => {
+        let done = self.assign(assignments, file, &mut new);
+        match done.and_then(|done| Ok((self.evaluate(&new, &done)?, done))) {
+            Ok(((network, run), done)) => {
+                let idle = |one: &Assignment| self.initial.as_ref()?.idle(&one.name, &one.span);
+                self.written.extend(done.iter().filter_map(idle).collect::<Vec<_>>());
                 (self.network, self.run, self.files, self.assigned) = (network, run, files, new);
                 self.judge();
                 Ok(())

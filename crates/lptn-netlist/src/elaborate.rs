@@ -38,6 +38,8 @@ pub(crate) struct Elaborated {
     pub(crate) map: SourceMap,
     pub(crate) temperature_unit: Unit,
     pub(crate) structure: Arc<Structure>,
+    /// Parameters that only temperatures use which the state of a run replaces.
+    pub(crate) without_effect: Vec<String>,
 }
 
 /// Problems found during elaboration.
@@ -153,6 +155,7 @@ impl<'a> Elaboration<'a> {
             self.problems.extend(adrift::warnings(network, &self.map, &is_read));
         }
         let temperature_unit = default.temperature_unit;
+        let without_effect = self.names.without_effect().cloned().collect();
         let (map, structure) = (self.map, self.names.structure);
         let done = network.map(|network| Elaborated {
             network,
@@ -162,6 +165,7 @@ impl<'a> Elaboration<'a> {
             map,
             temperature_unit,
             structure,
+            without_effect,
         });
         (done, Found { problems: self.problems, dropped: self.dropped })
     }

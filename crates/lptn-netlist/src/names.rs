@@ -59,6 +59,10 @@ pub(crate) struct Names {
     /// Results that other laws of an element's kind have, with the reason why its own has not.
     pub(crate) untold: HashMap<String, &'static str>,
     pub(crate) used: HashSet<String>,
+    /// Values in temperatures at the start that the state of a run replaces.
+    replaced: HashSet<String>,
+    /// True while such a temperature is read.
+    pub(crate) is_replaced: bool,
     /// Nodes and boundaries whose results expressions read.
     pub(crate) read: HashSet<String>,
     /// Names in unknown sections: an unknown name may be one of these.
@@ -146,6 +150,17 @@ impl Names {
 
     pub(crate) fn is_used(&self, name: &str) -> bool {
         self.used.contains(name)
+    }
+
+    /// Notes a use of a value. In a temperature that a state replaces it has no effect.
+    pub(crate) fn note_use(&mut self, name: &str) {
+        let uses = if self.is_replaced { &mut self.replaced } else { &mut self.used };
+        uses.insert(name.to_owned());
+    }
+
+    /// The values that only temperatures use which the state of a run replaces.
+    pub(crate) fn without_effect(&self) -> impl Iterator<Item = &String> {
+        self.replaced.difference(&self.used)
     }
 
     /// Notes elements that are inside another one, below `[node.winding]`.
@@ -271,7 +286,8 @@ impl Names {
 
     /// The parameters, signals, controls and tables that nothing uses, in file order.
     pub(crate) fn unused(&self) -> impl Iterator<Item = (ValueKind, &str, &Span)> {
-        let unused = self.order.iter().filter(|name| !self.used.contains(*name));
+        let is_used = |name: &String| self.used.contains(name) || self.replaced.contains(name);
+        let unused = self.order.iter().filter(move |name| !is_used(name));
         unused.filter_map(|name| {
             let (kind, span, _) = self.values.get(name)?;
             // a state is a result by itself

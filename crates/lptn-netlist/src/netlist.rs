@@ -294,7 +294,7 @@ fn included(
     arrange(&files, &mut diagnostics);
     match done {
         Some(done) => {
-            let initial = state.map(|file| file.state);
+            let initial = state.map(|file| file.state.replacing(&done));
             let made = Made { done, gearboxes: gears.list, chains, initial, posterior };
             finish(files, made, diagnostics)
         }
@@ -316,8 +316,7 @@ fn finish(
     Made { done, gearboxes, chains, initial, posterior }: Made,
     mut diagnostics: Vec<Diagnostic>,
 ) -> Result<Netlist, Rejected> {
-    let Elaborated { network, run: plan, studies, uncertainty, map, temperature_unit, structure } =
-        done;
+    let Elaborated { network, run: plan, studies, uncertainty, map, temperature_unit, .. } = done;
     let run = plan.as_ref().map(|plan| plan.settings(&network)).transpose();
     let mut problems = studies.check(&network);
     problems.extend(gearbox::check(&gearboxes, &network, &map));
@@ -357,7 +356,7 @@ fn finish(
         believed,
         assigned,
         inputs,
-        structure,
+        structure: done.structure,
         gearboxes,
     };
     netlist.judge();

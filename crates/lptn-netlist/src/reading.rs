@@ -7,6 +7,7 @@ use lptn_units::{Help, Type, suggest};
 
 use crate::fields::{Fields, Owner};
 use crate::format::SectionDeclaration;
+use crate::initial;
 use crate::names::ValueKind;
 use crate::place::{Given, Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
@@ -192,9 +193,17 @@ impl<'a> Elaboration<'a> {
         self.report(problem);
     }
 
+    /// Reports a parameter that gets values without an effect.
+    pub(crate) fn doubt_effect(&mut self, words: &str, name: &str, place: &Span) {
+        if self.names.without_effect().any(|other| other == name) {
+            self.report(initial::without_effect(words, name, place));
+        }
+    }
+
     /// True if a name is that of a parameter; if not, it is reported.
     pub(crate) fn is_parameter_here(&mut self, words: &str, name: &str, place: &Span) -> bool {
         if self.names.is_parameter(name) {
+            self.doubt_effect(words, name, place);
             return true;
         }
         let message = format!("{words} has to name a parameter, got `{name}`");

@@ -66,8 +66,11 @@ impl Names {
             .into_iter()
             .map(|problem| in_own_words(&self.structure, place, problem))
             .collect();
-        let calls = expression.calls().into_iter().map(|(name, _)| name);
-        self.used.extend(calls.filter(|name| self.values.contains_key(name)));
+        for (name, _) in expression.calls() {
+            if self.values.contains_key(&name) {
+                self.note_use(&name);
+            }
+        }
         problems
     }
 
@@ -79,7 +82,7 @@ impl Names {
     ) -> Option<Diagnostic> {
         let at = || place.raw.part(&range);
         if let Some(kind) = self.value_kind(&name) {
-            self.used.insert(name.clone());
+            self.note_use(&name);
             if name == INDEX && self.structure.index_at(&place.raw.span).is_some() {
                 return Some(two_meanings(place, kind, at()));
             }

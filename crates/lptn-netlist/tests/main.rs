@@ -27,6 +27,7 @@ mod materials;
 mod posterior;
 mod properties;
 mod property;
+mod replaced_starts;
 mod schema;
 #[path = "support/schema_check.rs"]
 mod schema_check;

@@ -18,8 +18,9 @@ const BASE: f64 = 256.0;
 const RAISED: f64 = 64.0;
 
 impl NetworkFitTask {
-    /// The task of a study: each record is a run of the network that begins at `[run] start` (0 s
-    /// without one), and the times of its rows are times of that run.
+    /// The task of a study: each record is a run of the network, and the times of its rows are times
+    /// of that run. It begins at `[run] start` (0 s without one), or at the first row if nodes begin
+    /// at their readings: nothing is known of them before it.
     ///
     /// # Errors
     /// [`NetworkFitError`] for a column that measures no quantity of a run, for columns whose units
@@ -61,13 +62,14 @@ impl NetworkFitTask {
                     values,
                 }
             };
+            let settings = begin(settings.clone(), study, record);
             let begun = Begun { study, record, sensors, start: settings.start() };
             runs.push(MeasuredRun {
                 signals: begun.signals(network)?,
                 initial: begun.initial(&of)?,
                 name: record.csv.clone(),
                 parameters,
-                settings: settings.clone(),
+                settings,
                 times: record.record.time.clone(),
                 columns: study.observed.iter().enumerate().map(column).collect(),
             });
@@ -91,6 +93,18 @@ pub(crate) fn settings(netlist: &Netlist) -> RunAnalysis {
     let run = netlist.run.as_ref();
     let of = |run| RunAnalysis::of(&netlist.network, run);
     run.map_or_else(|| RunAnalysis::until(Time(1.0)), of).bare()
+}
+
+/// The run of a record. A reading is the temperature of its own time, so a run that begins at
+/// readings begins no earlier than they do.
+fn begin(settings: RunAnalysis, study: &FitStudy, record: &FitRecord) -> RunAnalysis {
+    let (start, stop) = (settings.start(), settings.stop());
+    match (study.initial, record.record.time.first()) {
+        (FitInitial::First | FitInitial::Mean(_), Some(&first)) if first > start => {
+            settings.lasting(first, stop.max(first))
+        }
+        _ => settings,
+    }
 }
 
 /// One record, with its study and the instruments.
@@ -165,7 +179,7 @@ impl Begun<'_> {
             let reading = values.iter().sum::<f64>() / values.len() as f64;
             if found.iter().all(|other| other.node != *node) {
                 let sensor = self.sensor(observed.sensor.as_ref());
-                found.push(RecordedStart { node: *node, reading, sensor });
+                found.push(RecordedStart { node: *node, reading, read_at: first, sensor });
             }
         }
         Ok(found)

@@ -27,6 +27,8 @@ pub struct RecordedStart {
     pub node: NodeId,
     /// The reading in K.
     pub reading: f64,
+    /// Time of the first value in it, in s on the clock of the run.
+    pub read_at: f64,
     /// Index of the instrument among those of the task; `None` for an ideal one.
     pub sensor: Option<usize>,
 }

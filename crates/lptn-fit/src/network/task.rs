@@ -170,6 +170,16 @@ impl NetworkFitTask {
 }
 
 impl MeasuredRun {
+    /// The starts whose readings are of a later time: after its start by more than the usual time
+    /// between two rows, the median.
+    pub fn late_starts(&self) -> impl Iterator<Item = &RecordedStart> {
+        let mut between: Vec<f64> = self.times.windows(2).map(|two| two[1] - two[0]).collect();
+        between.sort_unstable_by(f64::total_cmp);
+        let usual = between.get(between.len() / 2).copied().unwrap_or(0.0);
+        let known_from = self.settings.start() + usual;
+        self.initial.iter().filter(move |start| start.read_at > known_from)
+    }
+
     /// The nodes that its columns need, ascending.
     pub(crate) fn nodes(&self) -> Vec<NodeId> {
         let mut nodes: Vec<NodeId> = self

@@ -15,6 +15,7 @@ mod posterior;
 mod power;
 mod saturation;
 mod second;
+mod still;
 mod terms;
 
 use lptn_reduce::fit_exponential;
@@ -84,6 +85,9 @@ pub struct StepFit {
     /// curve and does not average out as noise does: the intervals contain the true value less
     /// often than they say (in 86 of 100 records with a step of five deviations of slow noise).
     pub coarse: bool,
+    /// Time in s, on the clock of the record, until which it is constant, if that is more than a
+    /// tenth of `t_RC`: the step begins later than the record, and one exponential does not.
+    pub still_until: Option<f64>,
     /// Test for a second exponential in the residuals.
     pub second: LikelihoodRatioTest,
     /// Data for the errors of derived quantities.
@@ -165,6 +169,7 @@ impl StepFit {
             gaps,
             length: times[times.len() - 1] - times[0],
             beyond: (fit.settled - fit.initial) * (-times[times.len() - 1] / fit.tau).exp(),
+            still_until: still::until(&times, &values, fit.tau).map(|time| first + time),
             second: second::ask(&times, &values, &fit),
             resolution: step,
             coarse,

@@ -6,7 +6,7 @@ mod own;
 mod stand;
 mod start;
 
-pub(crate) use start::warnings;
+pub(crate) use start::{warnings, without_effect};
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -47,6 +47,8 @@ pub struct InitialState {
     pub end: StateEnd,
     /// The place that names it in the netlist.
     pub place: Span,
+    /// Parameters that only `T0` uses, which the state replaces.
+    pub(crate) without_effect: Vec<String>,
 }
 
 /// Values by name, each with its place, in the order of the file.
@@ -110,7 +112,8 @@ impl StateFile {
 
     fn empty(file: String, value: &RawValue) -> Self {
         let place = value.span.clone();
-        let state = InitialState { file, time: f64::NAN, end: StateEnd::Reached, place };
+        let (end, without_effect) = (StateEnd::Reached, Vec::new());
+        let state = InitialState { file, time: f64::NAN, end, place, without_effect };
         let (temperatures, melted) = (Named::new(), Named::new());
         let (states, controls) = (Named::new(), Named::new());
         Self { state, temperatures, melted, states, controls, problems: Vec::new(), usable: true }

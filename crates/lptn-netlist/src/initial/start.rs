@@ -6,6 +6,7 @@ use lptn_network::{End, Field, Input, Item, Network, NodeId, Temperature};
 use lptn_units::{Quantity, Type, suggest};
 
 use super::{ANYWHERE, InitialState};
+use crate::elaborate::Elaborated;
 use crate::raw::RawEntry;
 use crate::run::RunPlan;
 use crate::section::NODE;
@@ -105,6 +106,29 @@ impl<'a> Elaboration<'a> {
             self.map.insert(Item::Node(id), Field::Initial, place);
         }
     }
+}
+
+impl InitialState {
+    /// The state of a netlist whose temperatures at the start it replaces.
+    pub(crate) fn replacing(self, done: &Elaborated) -> Self {
+        Self { without_effect: done.without_effect.clone(), ..self }
+    }
+
+    /// Doubt about a parameter that was set without an effect.
+    pub(crate) fn idle(&self, name: &str, place: &Span) -> Option<Diagnostic> {
+        let is_idle = self.without_effect.iter().any(|other| other == name);
+        is_idle.then(|| without_effect("`--set`", name, place))
+    }
+}
+
+/// Doubt about a value of a parameter that only temperatures use which the state replaces.
+pub(crate) fn without_effect(words: &str, name: &str, place: &Span) -> Diagnostic {
+    let message = format!(
+        "{words} gives `{name}` a value that has no effect: only `T0` reads it, and the run starts \
+         from a state"
+    );
+    let help = "leave `initial` of [run] out to start from `T0`";
+    Diagnostic::doubt("netlist::initial_replaces", message, place, help)
 }
 
 /// Warnings about the start of a run.

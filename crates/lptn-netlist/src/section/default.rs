@@ -42,9 +42,8 @@ impl<'a> Elaboration<'a> {
             return default;
         };
         let ty = Type::ABSOLUTE_TEMPERATURE;
-        if let (Some(raw), Some(input)) =
-            (fields.get("T0"), self.input(&fields, "T0", Wanted::constant(ty)))
-        {
+        let read = |work: &mut Self| work.input(&fields, "T0", Wanted::constant(ty));
+        if let (Some(raw), Some(input)) = (fields.get("T0"), self.replaced_by_state(read)) {
             self.map.set_default(raw.span.clone());
             default.initial = Some((input, raw));
         }

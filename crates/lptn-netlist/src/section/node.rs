@@ -156,6 +156,14 @@ impl<'a> Elaboration<'a> {
             self.refuse("netlist::not_supported_yet", message, &raw.span, help);
             return Some(stand_in(ty));
         }
-        self.input(fields, "T0", Wanted::constant(ty))
+        self.replaced_by_state(|work| work.input(fields, "T0", Wanted::constant(ty)))
+    }
+
+    /// Reads a temperature at the start, which the state of a run replaces if it has one.
+    pub(crate) fn replaced_by_state<T>(&mut self, read: impl FnOnce(&mut Self) -> T) -> T {
+        self.names.is_replaced = self.state.is_some();
+        let found = read(self);
+        self.names.is_replaced = false;
+        found
     }
 }

@@ -93,10 +93,31 @@ pub(crate) fn doubts(answer: &FitNetworkAnswer) -> Vec<Diagnostic> {
     doubts.extend(taken::of_fit(of, found, &answer.named()));
     let of = (&answer.study, &answer.task, &answer.fit);
     doubts.extend(taken::beside_posterior(&answer.input, of, &answer.named()));
+    doubts.extend(late_starts(answer));
     doubts.extend(misfits(answer));
     doubts.extend(drifting(answer));
     doubts.extend(differing(answer));
     doubts
+}
+
+/// Doubts about nodes that begin at a reading of a later time, the first one that their column has.
+fn late_starts(answer: &FitNetworkAnswer) -> impl Iterator<Item = Diagnostic> {
+    let runs = answer.task.runs.iter();
+    let starts = runs.flat_map(|run| run.late_starts().map(move |start| (run, start)));
+    starts.map(|(run, start)| {
+        let [begin, read_at] = [run.settings.start(), start.read_at].map(|t| significant(t, 6));
+        let message = format!(
+            "{}: `{}` begins at {begin} s with a reading of {read_at} s, the first one of its column",
+            run.name,
+            answer.task.network.place_name(start.node)
+        );
+        let help = format!(
+            "take the rows before {read_at} s out of the record, whose run begins with its first \
+             row; or give the node its `T0`, without `initial`"
+        );
+        let doubt = Diagnostic::warning("fit::late_reading", message);
+        doubt.at(answer.study.span.clone(), "").help(help)
+    })
 }
 
 /// Doubt that an instrument has a lag: the records show none.

@@ -26,8 +26,7 @@ pub(super) fn of(request: &Request, column: &StepColumn) -> Vec<Diagnostic> {
     if let Some(problem) = cooling(request, column) {
         warnings.push(at(problem));
     }
-    let start = stands_still(&request.record.time, &column.column.values, fit.tau.value);
-    if let Some(start) = start {
+    if let Some(start) = fit.still_until {
         warnings.push(at(late(name, start)));
     } else if let Some(two) = &fit.second.offer {
         warnings.push(at(second(name, two, request)));
@@ -153,26 +152,12 @@ fn second(name: &str, two: &TwoExponentials, request: &Request) -> Diagnostic {
     ))
 }
 
-/// Share of its whole change within which a column counts as constant.
-const STILL: f64 = 0.02;
-
 /// Warning that the step begins after the record.
 fn late(name: &str, start: f64) -> Diagnostic {
     let from = significant(start, 6);
     let message = format!("column `{name}` is constant until {from} s, but one exponential is not");
     let help = format!("begin with the step: --from \"{from} s\"");
     Diagnostic::warning("fit::late_start", message).help(help)
-}
-
-/// Time in s until which a column is constant, if that is more than a tenth of its time constant.
-/// An exponential would have completed `STILL` of its change after 0.02 tau.
-fn stands_still(times: &[f64], values: &[f64], tau: f64) -> Option<f64> {
-    let known = || times.iter().zip(values).filter(|(_, value)| !value.is_nan());
-    let (start, first) = known().next()?;
-    let change = known().fold(0.0, |most: f64, (_, value)| most.max((value - first).abs()));
-    let still = known().take_while(|(_, value)| (*value - first).abs() <= STILL * change);
-    let (count, (end, _)) = still.enumerate().last()?;
-    (count >= 3 && end - start > 0.1 * tau).then_some(*end)
 }
 
 /// Time in s at which a column turns back by more than a third of its range: it heats, then cools.

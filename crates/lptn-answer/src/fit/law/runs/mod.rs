@@ -1,5 +1,6 @@
 //! From a folder of records to a law.
 
+mod doubts;
 mod figure;
 mod folder;
 mod lines;
@@ -89,6 +90,9 @@ impl FitOfRuns {
         }
         let settings = settings(&question, &folder.runs, capacity)?;
         let study = study(&folder, (settings, &question), (&mut doubts, listener))?;
+        let (files, warnings) = (Files::new(), doubts::of(&study));
+        listener.warn(&files, &warnings);
+        doubts.add(&files, &warnings);
         FitRunsAnswer::new(&path, &question, (study, folder, doubts))
     }
 }
