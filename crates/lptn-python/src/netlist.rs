@@ -1,10 +1,10 @@
 //! A netlist that Python has loaded.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use lptn::{Exit, Failure, Loaded, Unit};
+use lptn::{Exit, Failure, Loaded, RowColumn, Unit};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 
 use crate::answer::Answer;
 use crate::asking::{answered, failed};
@@ -13,8 +13,8 @@ use crate::trouble::Trouble;
 use crate::verbs::named;
 use crate::words;
 
-/// Bytes of a number.
-const SIZE: usize = size_of::<f64>();
+/// Files in memory by their paths.
+pub(crate) type Files = Vec<(String, Vec<u8>)>;
 
 /// A netlist with the values that were set when it was loaded.
 #[pyclass(frozen, module = "lptn._lptn")]
@@ -33,42 +33,69 @@ fn assignments(set: &Bound<'_, PyDict>) -> PyResult<Vec<String>> {
     set.iter().map(one).collect()
 }
 
+/// The names of files as the texts of a netlist have them, each with its own.
+fn named_in(netlist: &Path, files: &Files) -> Vec<(String, String)> {
+    let folder = netlist.parent().unwrap_or(Path::new(""));
+    files.iter().map(|(name, _)| (name.clone(), folder.join(name).display().to_string())).collect()
+}
+
+/// The netlist, if it reads all of these files.
+fn all_read(loaded: Loaded, names: &[(String, String)]) -> PyResult<Loaded> {
+    let files = &loaded.usual().netlist.files;
+    let read: Vec<&str> = files.ids().map(|id| files.name(id)).collect();
+    match names.iter().find(|(_, path)| !read.contains(&path.as_str())) {
+        None => Ok(loaded),
+        Some((name, _)) => {
+            let others = if read.len() > 1 { read[1..].join(", ") } else { "none".to_owned() };
+            let message = format!("the netlist reads no file `{name}`: it reads {others}");
+            Err(Trouble::of_value(message).into())
+        }
+    }
+}
+
 #[pymethods]
 impl Netlist {
-    /// Reads a file.
+    /// Reads a file; those that it names may be in memory.
     #[staticmethod]
-    fn read(py: Python<'_>, file: PathBuf, set: &Bound<'_, PyDict>) -> PyResult<Self> {
-        let set = assignments(set)?;
-        let loaded = py.detach(|| Loaded::read(&file, &set)).map_err(failed)?;
-        Ok(Self { loaded, file: Some(file) })
-    }
-
-    /// Reads a text.
-    #[staticmethod]
-    fn parse(py: Python<'_>, text: &str, name: &str, set: &Bound<'_, PyDict>) -> PyResult<Self> {
-        let set = assignments(set)?;
-        let loaded = py.detach(|| Loaded::text(name, text, &set)).map_err(failed)?;
-        Ok(Self { loaded, file: None })
-    }
-
-    /// Reads a text that names a file of candidates, which has this name, these headings, and a
-    /// column of numbers, each 8 bytes, for each of them.
-    #[staticmethod]
-    fn with_candidates(
+    fn read(
         py: Python<'_>,
-        text: (&str, &str),
-        file: &str,
-        columns: Vec<(String, Vec<u8>)>,
+        file: PathBuf,
         set: &Bound<'_, PyDict>,
+        files: Files,
     ) -> PyResult<Self> {
         let set = assignments(set)?;
-        let number = |bytes: &[u8]| bytes.try_into().map_or(f64::NAN, f64::from_ne_bytes);
-        let columns = columns.into_iter().map(|(heading, bytes)| {
-            (heading, bytes.chunks_exact(SIZE).map(number).collect::<Vec<f64>>())
+        let names = named_in(&file, &files);
+        let read = || Loaded::read_with(&file, &files.into(), &set);
+        let loaded = py.detach(read).map_err(failed)?;
+        Ok(Self { loaded: all_read(loaded, &names)?, file: Some(file) })
+    }
+
+    /// Reads a text; the files that it names may be in memory.
+    #[staticmethod]
+    fn parse(
+        py: Python<'_>,
+        text: &str,
+        name: &str,
+        set: &Bound<'_, PyDict>,
+        files: Files,
+    ) -> PyResult<Self> {
+        let set = assignments(set)?;
+        let names = named_in(Path::new(name), &files);
+        let read = || Loaded::text_with((name, text), &files.into(), &set);
+        let loaded = py.detach(read).map_err(failed)?;
+        Ok(Self { loaded: all_read(loaded, &names)?, file: None })
+    }
+
+    /// The records of studies that fit or infer: section, name, and files as the netlist names them.
+    fn records(&self) -> Vec<(&'static str, String, Vec<String>)> {
+        let studies = &self.loaded.usual().netlist.studies;
+        let fits = studies.fits.iter().map(|study| ("fit", &study.name, study));
+        let inferred = studies.infers.iter().map(|study| ("infer", &study.name, &study.reads));
+        let all = fits.chain(inferred).map(|(section, name, study)| {
+            let csv = study.records.iter().map(|record| record.csv.clone());
+            (section, name.clone(), csv.collect())
         });
-        let columns: Vec<_> = columns.collect();
-        let read = || Loaded::with_columns(text, (file, &columns), &set);
-        Ok(Self { loaded: py.detach(read).map_err(failed)?, file: None })
+        all.collect()
     }
 
     /// Asks a question of this name; `others` are further netlists of a comparison.
@@ -87,7 +114,7 @@ impl Netlist {
             files.push(self.file.clone().ok_or_else(text)?);
             files.extend(others);
         }
-        answered(py, verb, (Some(&self.loaded), files), words)
+        answered(py, verb, (Some(&self.loaded), files, Vec::new()), words)
     }
 
     /// The doubts about the netlist as JSON; `None` without doubts.
@@ -146,4 +173,32 @@ pub(crate) fn quantity_text(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Op
         return Ok(None);
     }
     Ok(Some(words::text(value)?.ok_or_else(wrong)?))
+}
+
+/// The bytes of a CSV file with these columns: headings, and numbers of 8 bytes each or words.
+#[pyfunction]
+pub(crate) fn csv(py: Python<'_>, columns: Vec<(String, Cells)>) -> PyResult<Bound<'_, PyBytes>> {
+    let number = |bytes: &[u8]| bytes.try_into().map_or(f64::NAN, f64::from_ne_bytes);
+    let columns = columns.into_iter().map(|(name, cells)| {
+        let cells = match cells {
+            Cells::Words(words) => lptn::Cells::Words(words.into()),
+            Cells::Numbers(bytes) => {
+                let numbers = bytes.chunks_exact(size_of::<f64>()).map(number);
+                lptn::Cells::Numbers(numbers.collect())
+            }
+        };
+        RowColumn { name, unit: None, cells }
+    });
+    let columns: Vec<RowColumn<'_>> = columns.collect();
+    let bytes = py.detach(|| RowColumn::csv(&columns));
+    Ok(PyBytes::new(py, &bytes))
+}
+
+/// The cells of a column of a frame.
+#[derive(FromPyObject)]
+pub(crate) enum Cells {
+    /// Numbers, each 8 bytes.
+    Numbers(Vec<u8>),
+    /// Texts.
+    Words(Vec<String>),
 }

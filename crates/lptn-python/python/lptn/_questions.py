@@ -20,6 +20,11 @@ MORE = [
 ]
 
 
+# An option of questions that read records.
+DATA = ("data", "frames in the place of the study's records: one, a list, or by their names")
+RECORDS = ("fit network", "infer")
+
+
 def answered(
     answer: _lptn.Answer,
     question: str,
@@ -41,6 +46,11 @@ def answered(
     if answer.doubts() is not None:
         warn(result.doubts, level + 1)
     return result
+
+
+def more(question: str, sets: bool) -> list[tuple[str, str]]:
+    """Options of a question that the package adds."""
+    return [*([DATA] if question in RECORDS else []), *(MORE if sets else [])]
 
 
 def _none(result: Result) -> Problem:
@@ -80,22 +90,34 @@ def _method(name: str, first: str | None, several: bool) -> Any:
             if first is None or len(given) > 1 or first in words:
                 raise TypeError(f"{name}() takes no such argument without a name")
             words[first] = given[0]
+        data = words.pop("data", None) if name in RECORDS else None
+        explain = self._explain
+        if data is not None:
+
+            def explain(of: Error | list[Problem]) -> None:
+                self._explain(of, data=True)
+
+        asked = (others, data, explain)
         if "progress" in words:
             with shown(words) as words:
-                answer, words = of(self, others, words)
+                answer, words = of(self, asked, words)
         else:
-            answer, words = of(self, others, words)
+            answer, words = of(self, asked, words)
         about = None if several and given else self
-        return answered(answer, name, words, 2, self._explain, about)
+        return answered(answer, name, words, 2, explain, about)
 
     def of(
-        self: Any, others: list[str], words: dict[str, Any]
+        self: Any, asked: tuple[list[str], Any, Explain], words: dict[str, Any]
     ) -> tuple[_lptn.Answer, dict[str, Any]]:
+        others, data, explain = asked
         try:
             words = given_values(words, lambda: self._netlist, name == "compare")
-            return self._netlist.ask(name, others, words), words
+            netlist = self._netlist
+            if data is not None:
+                netlist = self._with_data(name, words.get("name"), data)
+            return netlist.ask(name, others, words), words
         except Error as error:
-            self._explain(error)
+            explain(error)
             raise
 
     return ask
@@ -110,8 +132,13 @@ class Questions:
     def _netlist(self) -> _lptn.Netlist:
         raise NotImplementedError
 
-    def _explain(self, of: Error | list[Problem]) -> None:
-        """Names the entries of a network made in code that problems are about."""
+    def _with_data(self, question: str, study: str | None, data: Any) -> _lptn.Netlist:
+        raise NotImplementedError
+
+    def _explain(self, of: Error | list[Problem], data: bool = False) -> None:
+        """Names the entries of a network made in code that problems are about, and the rows of
+        frames: those of all records with `data`.
+        """
 
 
 def _declare() -> None:
@@ -120,7 +147,7 @@ def _declare() -> None:
             continue
         lines = [f"{purpose}: `lptn {name}`.", "", "Options:"]
         lines += [f"    {option}: {means}" for option, _, means in options]
-        lines += [f"    {option}: {means}" for option, means in MORE] if sets else []
+        lines += [f"    {option}: {means}" for option, means in more(name, sets)]
         lines += ["", "Other keywords are parameters of the netlist."] if sets else []
         method = _method(name, first, about == "netlists")
         method.__name__ = method_name(name)
