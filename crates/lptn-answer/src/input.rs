@@ -40,12 +40,6 @@ pub struct Given {
 }
 
 impl Given {
-    /// The bytes of a text of this name.
-    pub(crate) fn of(name: &str, bytes: Vec<u8>) -> Self {
-        let stem = Path::new(name).file_stem().map(|stem| stem.to_string_lossy().into_owned());
-        Self { bytes, name: name.into(), stem: stem.unwrap_or_else(|| "netlist".into()) }
-    }
-
     /// The name for a command that can be typed; `None` for stdin.
     pub fn typed(&self) -> Option<String> {
         (self.name != STDIN).then(|| quoted(&self.name))

@@ -110,3 +110,11 @@ impl Loaded {
         }
     }
 }
+
+impl Given {
+    /// The bytes of a text of this name.
+    pub(crate) fn of(name: &str, bytes: Vec<u8>) -> Self {
+        let stem = Path::new(name).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        Self { bytes, name: name.into(), stem: stem.unwrap_or_else(|| "netlist".into()) }
+    }
+}

@@ -33,24 +33,25 @@ fn assignments(set: &Bound<'_, PyDict>) -> PyResult<Vec<String>> {
     set.iter().map(one).collect()
 }
 
-/// The names of files as the texts of a netlist have them, each with its own.
-fn named_in(netlist: &Path, files: &Files) -> Vec<(String, String)> {
-    let folder = netlist.parent().unwrap_or(Path::new(""));
-    files.iter().map(|(name, _)| (name.clone(), folder.join(name).display().to_string())).collect()
+/// The folder of a netlist, and the names of files in memory.
+fn named_in(netlist: &Path, files: &Files) -> (PathBuf, Vec<String>) {
+    let folder = netlist.parent().unwrap_or(Path::new("")).to_owned();
+    (folder, files.iter().map(|(name, _)| name.clone()).collect())
 }
 
-/// The netlist, if it reads all of these files.
-fn all_read(loaded: Loaded, names: &[(String, String)]) -> PyResult<Loaded> {
+/// Refuses a file in memory that a netlist does not read.
+fn all_read(loaded: &Loaded, (folder, names): &(PathBuf, Vec<String>)) -> PyResult<()> {
     let files = &loaded.usual().netlist.files;
-    let read: Vec<&str> = files.ids().map(|id| files.name(id)).collect();
-    match names.iter().find(|(_, path)| !read.contains(&path.as_str())) {
-        None => Ok(loaded),
-        Some((name, _)) => {
-            let others = if read.len() > 1 { read[1..].join(", ") } else { "none".to_owned() };
-            let message = format!("the netlist reads no file `{name}`: it reads {others}");
-            Err(Trouble::of_value(message).into())
-        }
-    }
+    // the first text is the netlist
+    let read: Vec<&Path> = files.ids().skip(1).map(|id| Path::new(files.name(id))).collect();
+    let Some(name) = names.iter().find(|name| !read.contains(&&*folder.join(name))) else {
+        return Ok(());
+    };
+    let own = read.iter().map(|path| path.strip_prefix(folder).unwrap_or(path).display());
+    let own: Vec<String> = own.map(|path| path.to_string()).collect();
+    let own = if own.is_empty() { "none".to_owned() } else { own.join(", ") };
+    let message = format!("the netlist reads no file `{name}`: it reads {own}");
+    Err(Trouble::of_value(message).into())
 }
 
 #[pymethods]
@@ -67,7 +68,8 @@ impl Netlist {
         let names = named_in(&file, &files);
         let read = || Loaded::read_with(&file, &files.into(), &set);
         let loaded = py.detach(read).map_err(failed)?;
-        Ok(Self { loaded: all_read(loaded, &names)?, file: Some(file) })
+        all_read(&loaded, &names)?;
+        Ok(Self { loaded, file: Some(file) })
     }
 
     /// Reads a text; the files that it names may be in memory.
@@ -83,7 +85,8 @@ impl Netlist {
         let names = named_in(Path::new(name), &files);
         let read = || Loaded::text_with((name, text), &files.into(), &set);
         let loaded = py.detach(read).map_err(failed)?;
-        Ok(Self { loaded: all_read(loaded, &names)?, file: None })
+        all_read(&loaded, &names)?;
+        Ok(Self { loaded, file: None })
     }
 
     /// The records of studies that fit or infer: section, name, and files as the netlist names them.

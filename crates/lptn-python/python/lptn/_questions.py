@@ -70,6 +70,8 @@ def paths(netlists: tuple[Any, ...]) -> list[str]:
     for netlist in netlists:
         if getattr(netlist, "_set", None):
             raise TypeError("a network with parameters is not a file: name the file, and write set={}")
+        if getattr(netlist, "_files", None):
+            raise TypeError("a network with frames is not a file: its frames are not on the disk")
         file = getattr(netlist, "file", netlist)
         if file is None:
             raise TypeError("a network from a text is not a file: write it into one")
@@ -85,6 +87,8 @@ def _method(name: str, first: str | None, several: bool) -> Any:
         if several:
             if given and self._set:
                 raise TypeError(f"{name}() would set the parameters of {self!r} in every netlist")
+            if self._files:
+                raise TypeError(f"{name}() reads files, and the frames of {self!r} are not on the disk")
             others = paths(given)
         elif given:
             if first is None or len(given) > 1 or first in words:
@@ -127,6 +131,10 @@ class Questions:
     """The questions of the command line, each a method; `_lptn.questions` declares them."""
 
     _set: dict[str, Any]
+
+    @property
+    def _files(self) -> list[tuple[str, bytes]]:
+        raise NotImplementedError
 
     @property
     def _netlist(self) -> _lptn.Netlist:
