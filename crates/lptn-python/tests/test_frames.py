@@ -191,6 +191,18 @@ class Frames(unittest.TestCase):
             with self.assertRaises(TypeError) as caught:
                 self.net.fit(data=data)
             self.assertIn(words, str(caught.exception))
+        for ask, words in [
+            (lambda: lptn.fit_step([1, 2]), "`record` takes a CSV file, a DataFrame"),
+            (lambda: lptn.fit_step({}), "not dict"),
+            (lambda: lptn.fit_step(None), "`record` is missing"),
+            (lambda: lptn.fit_law({"a.csv": 3}), "`points` takes frames by their names"),
+            (lambda: self.net.run(data=Frame(**self.record)), "`data` takes no frame"),
+            (lambda: self.net.fit(dat=Frame(**self.record)), "`dat` takes no frame"),
+            (lambda: lptn.load(COFFEE, files={"records/coffee.csv": self.record}).check(), "on the disk"),
+        ]:
+            with self.assertRaises(TypeError) as caught:
+                ask()
+            self.assertIn(words, str(caught.exception))
         for files in [3, {"a.csv": 3}, {"a.csv": "b.csv"}]:
             self.assertRaises(TypeError, lptn.load, COFFEE, files=files)
         with self.assertRaises(lptn.Error) as caught:

@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping
 from typing import Any
 
-from ._memory import FRAME, File, csv, files, is_frame
+from ._memory import FRAME, File, csv, files, is_frame, named
 from ._network import asked
 from ._result import Result
 
@@ -29,7 +29,7 @@ def size(**words: Any) -> Result:
 def fit_step(record: Any, **words: Any) -> Result:
     """Fits one exponential to a record, or several (`terms`): a CSV file or a frame."""
     if not is_frame(record):
-        return asked("fit step", [], {"record": record, **words})
+        return asked("fit step", [], {"record": named("record", record), **words})
     return asked("fit step", [], {"record": FRAME, **words}, [(FRAME, csv(record))])
 
 
@@ -42,9 +42,10 @@ def fit_law(points: Any = None, **words: Any) -> Result:
     memory: list[File] = []
     if is_frame(points):
         memory = [(FRAME, csv(points))]
-    elif isinstance(points, Mapping):
-        memory = [(os.path.join(FRAME, name), one) for name, one in files(points)]
-    return asked("fit law", [], {"points": FRAME if memory else points, **words}, memory)
+    elif isinstance(points, Mapping) and points:
+        memory = [(os.path.join(FRAME, name), one) for name, one in files(points, "points")]
+    about = FRAME if memory else named("points", points)
+    return asked("fit law", [], {"points": about, **words}, memory)
 
 
 def fit_compare(*netlists: Any, **words: Any) -> Result:

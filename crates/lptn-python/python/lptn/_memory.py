@@ -36,13 +36,21 @@ def _is_pair(value: Any) -> bool:
     return isinstance(value, tuple) and len(value) == 2 and isinstance(value[1], str)
 
 
-def files(given: Mapping[str, Any] | None) -> list[File]:
+def files(given: Mapping[str, Any] | None, word: str = "files") -> list[File]:
     """Files in memory: frames by their paths."""
     if given is None:
         return []
     if not isinstance(given, Mapping) or not all(map(is_frame, given.values())):
-        raise TypeError('`files` takes frames by their names: {"record.csv": frame}')
+        raise TypeError(f'`{word}` takes frames by their names: {{"record.csv": frame}}')
     return [(os.fspath(path), csv(frame)) for path, frame in given.items()]
+
+
+def named(word: str, value: Any) -> Any:
+    """The name of a file, perhaps `None`."""
+    if value is not None and not isinstance(value, (str, bytes, os.PathLike)):
+        kind = type(value).__name__
+        raise TypeError(f"`{word}` takes a CSV file, a DataFrame or a dictionary of columns, not {kind}")
+    return os.fsdecode(value) if value is not None else None
 
 
 def csv(frame: Any) -> bytes:

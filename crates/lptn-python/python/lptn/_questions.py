@@ -84,15 +84,16 @@ def _method(name: str, first: str | None, several: bool) -> Any:
 
     def ask(self: Any, *given: Any, **words: Any) -> Result:
         others: list[str] = []
+        call = f"{method_name(name)}()"
         if several:
             if given and self._set:
-                raise TypeError(f"{name}() would set the parameters of {self!r} in every netlist")
+                raise TypeError(f"{call} would set the parameters of {self!r} in every netlist")
             if self._files:
-                raise TypeError(f"{name}() reads files, and the frames of {self!r} are not on the disk")
+                raise TypeError(f"{call} reads files: the frames of {self!r} are not on the disk")
             others = paths(given)
         elif given:
             if first is None or len(given) > 1 or first in words:
-                raise TypeError(f"{name}() takes no such argument without a name")
+                raise TypeError(f"{call} takes no such argument without a name")
             words[first] = given[0]
         data = words.pop("data", None) if name in RECORDS else None
         explain = self._explain

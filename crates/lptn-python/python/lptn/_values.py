@@ -58,6 +58,11 @@ def values(words: Mapping[str, Any], read: Read, several: bool = False) -> dict[
     def one(name: str, word: Any) -> Any:
         pair = isinstance(word, tuple) and len(word) == 2 and isinstance(word[1], str)
         number, unit = word if pair else (word, getattr(word, "unit", None))
+        if hasattr(word, "columns"):
+            raise TypeError(
+                f"`{name}` takes no frame: `data` of fit and infer takes one, `files` of lptn.load, "
+                "and net.sweep(frame)"
+            )
         many = isinstance(number, (list, tuple)) or getattr(number, "ndim", 0) > 0
         if many and name in _parameters(read()):
             if not several:
