@@ -157,6 +157,11 @@ class Frames(unittest.TestCase):
         rest = {head: values for head, values in self.record.items() if head != "time [s]"}
         for times in [dates, np.array(dates, dtype="datetime64[ms]"), [str(date) for date in dates]]:
             self.assertEqual(self.net.fit(data={"time": times, **rest})["value"].tolist(), whole)
+        lengths = [timedelta(seconds=seconds) for seconds in self.record["time [s]"]]
+        nothing = [None] * len(lengths)
+        for times in [lengths, np.array(lengths, dtype="timedelta64[ns]")]:
+            data = {"t": times, "note": nothing, **rest}
+            self.assertEqual(self.net.fit(data=data)["value"].tolist(), whole)
         gaps = {**self.record, "black [degC]": [None, *self.record["black [degC]"][1:]]}
         self.assertIn("1 gap", str(self.net.fit(data=gaps).doubts[0]))
 

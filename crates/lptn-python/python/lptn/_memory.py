@@ -132,9 +132,8 @@ def _of_objects(values: Any) -> Any:
     cells = values.tolist()
     missing = [cell is None or str(cell) in ("<NA>", "NaT") for cell in cells]
     there = [cell for cell, no in zip(cells, missing) if not no]
-    if all(hasattr(cell, "total_seconds") for cell in there):
-        seconds = [np.nan if no else cell.total_seconds() for cell, no in zip(cells, missing)]
-        return np.array(seconds) if not there else (np.array(seconds) * 1e9).astype("m8[ns]")
+    if there and all(hasattr(cell, "total_seconds") for cell in there):
+        return np.array([None if no else cell for cell, no in zip(cells, missing)], dtype="m8[us]")
     if all(hasattr(cell, "__float__") for cell in there):
         return np.array([np.nan if no else float(cell) for cell, no in zip(cells, missing)])
     return np.array(["" if no else str(cell) for cell, no in zip(cells, missing)])

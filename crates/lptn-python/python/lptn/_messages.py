@@ -95,7 +95,10 @@ def _arguments(words: list[str], kinds: dict[str, str], first: str | None) -> st
 
 
 class Place:
-    """A place in a netlist: file, line and column from 1, and the text there."""
+    """A place in a netlist: file, line and column from 1, and the text there.
+
+    In a frame `row` counts its rows from 0, and is -1 for the headings.
+    """
 
     def __init__(self, data: dict[str, Any]) -> None:
         self.file: str = data["file"]
@@ -106,7 +109,6 @@ class Place:
         self.text: str = data["text"]
         self.label: str = data.get("label", "")
         self.primary: bool = data.get("primary", True)
-        # of a frame: the row from 0, -1 for the headings
         self.row: int | None = None
 
     def __repr__(self) -> str:
