@@ -7,8 +7,8 @@ use lptn_network::{
     Network, NodeId, ParameterId, RunSettings, SignalId, Temperature, Time, UnknownName, Variable,
 };
 use lptn_solve::{
-    ControlState, EventIndicator, Proceed, RateSlopes, Rates, Solution, State, StateRates,
-    Transient, boundary_temperatures,
+    ControlState, EventIndicator, Proceed, RateSlopes, Rates, Snapshot, Solution, State,
+    StateRates, Transient, boundary_temperatures,
 };
 use serde::{Deserialize, Serialize};
 
@@ -222,6 +222,14 @@ impl Simulation {
     /// [`SimulationError::Rates`] if an input has no value.
     pub fn rates(&self) -> Result<Rates, SimulationError> {
         Ok(self.state_rates()?.at(self.time, self.state.carried())?)
+    }
+
+    /// Temperatures and heat flows just after the present time.
+    ///
+    /// # Errors
+    /// As [`Simulation::rates`].
+    pub fn snapshot(&self) -> Result<Snapshot, SimulationError> {
+        Ok(self.state_rates()?.snapshot(self.time, self.state.carried())?)
     }
 
     /// The node of each state, in the order of the rates, the Jacobian and the saved states.

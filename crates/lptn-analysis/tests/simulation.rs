@@ -43,6 +43,34 @@ fn after(from: f64, time: f64, power: f64, g: f64) -> f64 {
     settled + (from - settled) * (-time * g / C).exp()
 }
 
+/// At the start, after a step, and after an input is set: the heats are those of the temperatures.
+#[test]
+fn heats_are_those_of_the_present_state() {
+    let mut simulation = Simulation::new(&body(), &settings()).unwrap();
+    simulation.set("P", 40.0).unwrap();
+    let step = simulation.advance(Time(500.0), &[]).unwrap();
+    let rise = after(20.0, 500.0, 40.0, 2.0) - 20.0;
+    let close = |a: f64, b: f64, within: f64| assert!((a - b).abs() < within, "{a} for {b}");
+    // 2 W/K, and twice as much after the conductance is set
+    for g in [2.0, 4.0] {
+        simulation.set("G", g).unwrap();
+        let at = simulation.snapshot().unwrap();
+        close(at.temperatures[0] - ZERO, 20.0 + rise, 1e-4);
+        close(at.received[0][1], g * rise, 1e-3);
+        close(at.source_heat[0], 40.0, 1e-12);
+        close(at.boundary_heat[0], -g * rise, 1e-3);
+        close(at.stored(simulation.network())[0], 40.0 - g * rise, 1e-3);
+    }
+    let heats = step.ledger().heats(step.network());
+    let found: Vec<_> = heats.iter().map(|(part, name, _)| (*part, name.as_ref())).collect();
+    let expected = [("sources", "heater"), ("boundaries", "air"), ("stored", "body")];
+    assert_eq!(found, expected);
+    let joules = [40.0 * 500.0, C * rise - 40.0 * 500.0, C * rise];
+    for ((.., heat), joules) in heats.iter().zip(joules) {
+        close(*heat, joules, 0.5);
+    }
+}
+
 #[test]
 fn inputs_that_are_set_between_steps_are_met_exactly() {
     let mut simulation = Simulation::new(&body(), &settings()).unwrap();

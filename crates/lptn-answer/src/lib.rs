@@ -37,6 +37,7 @@ pub mod limits;
 pub mod listener;
 pub mod loaded;
 pub mod lumping;
+pub mod memory_files;
 pub mod messages;
 pub mod modes;
 pub mod operating_point;

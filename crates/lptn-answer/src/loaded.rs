@@ -3,12 +3,12 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use lptn_netlist::{Netlist, parse_with, read_named};
-use lptn_report::CsvLines;
+use lptn_netlist::Netlist;
 
 use crate::belief::Belief;
 use crate::failure::Failure;
 use crate::input::{self, Given, Input};
+use crate::memory_files::MemoryFiles;
 
 /// A netlist that is read once and asked many times, each time with other values.
 ///
@@ -30,8 +30,20 @@ impl Loaded {
     /// # Errors
     /// All problems of the netlist or of the values.
     pub fn read(file: impl AsRef<Path>, set: &[String]) -> Result<Self, Failure> {
+        Self::read_with(file, &MemoryFiles::default(), set)
+    }
+
+    /// The same for a netlist that names files in memory.
+    ///
+    /// # Errors
+    /// As [`Loaded::read`].
+    pub fn read_with(
+        file: impl AsRef<Path>,
+        files: &MemoryFiles,
+        set: &[String],
+    ) -> Result<Self, Failure> {
         let text = input::read(file.as_ref())?;
-        let netlist = input::parse(&text)?;
+        let netlist = files.parse(&text)?;
         Self::of(text, netlist, set)
     }
 
@@ -40,27 +52,21 @@ impl Loaded {
     /// # Errors
     /// As [`Loaded::read`].
     pub fn text(name: &str, text: &str, set: &[String]) -> Result<Self, Failure> {
-        let text = given(name, text);
-        let netlist = input::parse(&text)?;
-        Self::of(text, netlist, set)
+        Self::text_with((name, text), &MemoryFiles::default(), set)
     }
 
-    /// The same for a text that names a CSV file which is not on the disk: its path as the text gives
-    /// it, and its columns, each with its heading. They are as long as the first.
+    /// The same for a text that names files in memory.
     ///
     /// # Errors
     /// As [`Loaded::read`].
-    pub fn with_columns(
+    pub fn text_with(
         (name, text): (&str, &str),
-        (file, columns): (&str, &[(String, Vec<f64>)]),
+        files: &MemoryFiles,
         set: &[String],
     ) -> Result<Self, Failure> {
-        let path = Path::new(name).parent().unwrap_or(Path::new("")).join(file);
-        let netlist = parse_with(name, text, &mut |asked| match asked == path {
-            true => Ok(csv(columns)),
-            false => read_named(asked),
-        });
-        Self::of(given(name, text), netlist?, set)
+        let text = Given::of(name, text.into());
+        let netlist = files.parse(&text)?;
+        Self::of(text, netlist, set)
     }
 
     fn of(text: Given, netlist: Netlist, set: &[String]) -> Result<Self, Failure> {
@@ -105,20 +111,10 @@ impl Loaded {
     }
 }
 
-fn given(name: &str, text: &str) -> Given {
-    let stem = Path::new(name).file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    let stem = stem.unwrap_or_else(|| "netlist".into());
-    Given { bytes: text.into(), name: name.into(), stem }
-}
-
-fn csv(columns: &[(String, Vec<f64>)]) -> Vec<u8> {
-    let mut lines = CsvLines::new();
-    columns.iter().for_each(|(heading, _)| lines.word(heading));
-    lines.end();
-    for row in 0..columns.first().map_or(0, |(_, numbers)| numbers.len()) {
-        let numbers = columns.iter().map(|(_, numbers)| numbers.get(row));
-        numbers.for_each(|number| lines.number(number.copied().unwrap_or(f64::NAN)));
-        lines.end();
+impl Given {
+    /// The bytes of a text of this name.
+    pub(crate) fn of(name: &str, bytes: Vec<u8>) -> Self {
+        let stem = Path::new(name).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        Self { bytes, name: name.into(), stem: stem.unwrap_or_else(|| "netlist".into()) }
     }
-    lines.into_bytes()
 }

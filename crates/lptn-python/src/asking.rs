@@ -8,6 +8,7 @@ use pyo3::types::PyDict;
 
 use crate::answer::Answer;
 use crate::declaration::{About, Declaration};
+use crate::netlist::Files;
 use crate::subject::Asked;
 use crate::trouble::{Trouble, raised};
 use crate::verbs::{VERBS, Verb, named};
@@ -21,14 +22,14 @@ use crate::words::Words;
 pub(crate) fn answered(
     py: Python<'_>,
     verb: &'static Verb,
-    (net, files): (Option<&Loaded>, Vec<PathBuf>),
+    (net, files, memory): (Option<&Loaded>, Vec<PathBuf>, Files),
     given: &Bound<'_, PyDict>,
 ) -> PyResult<Answer> {
     let is_parameter = |name: &str| net.is_some_and(|net| is_parameter(net, name));
     let told = given.get_item("progress")?.filter(|told| !told.is_none());
     let words = Words::sorted(&verb.declared, given, &is_parameter)?;
     let hearing = Hearing::telling(told.map(Bound::unbind));
-    let asked = Asked { net, files, listener: &hearing };
+    let asked = Asked { net, files, memory, listener: &hearing };
     let work = || (verb.ask)(&asked, &words);
     let is_soon = verb.declared.name == "steady" && !words.flag("periodic");
     let outcome = if is_soon { soon(py, work) } else { hearing.watch(py, work) };
@@ -47,16 +48,18 @@ fn is_parameter(net: &Loaded, name: &str) -> bool {
     net.usual().netlist.network.parameter(name).is_ok()
 }
 
-/// Asks a question that is not about a network: of netlists, of a record, of numbers.
+/// Asks a question that is not about a network: of netlists, of a record, of numbers. Records may
+/// be in memory.
 #[pyfunction]
 pub(crate) fn ask(
     py: Python<'_>,
     name: &str,
     files: Vec<PathBuf>,
     words: &Bound<'_, PyDict>,
+    memory: Files,
 ) -> PyResult<Answer> {
     let verb = named(name, |about| about != About::Network)?;
-    answered(py, verb, (None, files), words)
+    answered(py, verb, (None, files, memory), words)
 }
 
 /// An option in Python: name, type, meaning.

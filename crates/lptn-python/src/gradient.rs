@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use lptn::{Gradients, Input, LimitId, Listener as _, SweepAsked, SweepQuestion, Unit, tolerance};
+use lptn::{
+    Failure, Gradients, Input, LimitId, Listener as _, Problem, Proceed, Progress, SweepAsked,
+    SweepQuestion, Unit, tolerance,
+};
 use pyo3::prelude::*;
 
 use crate::asking::{failed, raised_by};
@@ -36,6 +39,19 @@ fn limit(asked: &SweepAsked, name: &str) -> PyResult<(LimitId, Unit)> {
     };
     let ty = limit.margin_type();
     Ok((id, Unit { text: ty.dimension.si_unit(), scale: 1.0, offset: 0.0, ty }))
+}
+
+/// Computes while Python is told the progress and may interrupt.
+fn heard<T: Send, E: Problem>(
+    py: Python<'_>,
+    work: impl FnOnce(&dyn Fn(Progress) -> Proceed) -> Result<T, E> + Send,
+) -> PyResult<T> {
+    let hearing = Hearing::default();
+    let asked = || {
+        let found = work(&|progress| hearing.progress(progress));
+        found.map_err(|error| Failure::of(&error).into())
+    };
+    hearing.watch(py, asked).map_err(|trouble| raised_by(py, trouble, &hearing))
 }
 
 #[pymethods]
@@ -84,28 +100,16 @@ impl Gradient {
     /// The values and their derivatives for these values of the parameters, all in their units.
     fn at(&self, py: Python<'_>, values: Vec<f64>) -> PyResult<Found> {
         let values = self.si(&values)?;
-        let hearing = Hearing::default();
-        let work = || {
-            let observer = |progress| hearing.progress(progress);
-            let found =
-                self.asked.task().gradients(&values, (self.reports, &self.limits), &observer);
-            found.map_err(|error| lptn::Failure::of(&error).into())
-        };
-        let found = hearing.watch(py, work).map_err(|trouble| raised_by(py, trouble, &hearing))?;
+        let asked = (self.reports, &self.limits[..]);
+        let found = heard(py, |observer| self.asked.task().gradients(&values, asked, observer))?;
         Ok(self.shown(&found))
     }
 
     /// The quantities of the reports and their derivatives at these times in s, ascending.
     fn series(&self, py: Python<'_>, values: Vec<f64>, times: Vec<f64>) -> PyResult<Series> {
         let values = self.si(&values)?;
-        let hearing = Hearing::default();
-        let work = || {
-            let observer = |progress| hearing.progress(progress);
-            let asked = (self.reports, &times[..]);
-            let found = self.asked.task().gradient_series(&values, asked, &observer);
-            found.map_err(|error| lptn::Failure::of(&error).into())
-        };
-        let found = hearing.watch(py, work).map_err(|trouble| raised_by(py, trouble, &hearing))?;
+        let (task, asked) = (self.asked.task(), (self.reports, &times[..]));
+        let found = heard(py, |observer| task.gradient_series(&values, asked, observer))?;
         let shown = found.into_iter().zip(&self.results).map(|(one, of)| {
             let slopes = one.slopes.into_iter().zip(&self.parameters).map(|(slopes, by)| {
                 slopes.into_iter().map(|slope| slope * by.scale / of.scale).collect()

@@ -31,7 +31,7 @@ mod module {
     #[pymodule_export]
     use super::gradient::Gradient;
     #[pymodule_export]
-    use super::netlist::{Netlist, quantity_text, unit};
+    use super::netlist::{Netlist, csv, quantity_text, unit};
     #[pymodule_export]
     use super::program::program;
     #[pymodule_export]

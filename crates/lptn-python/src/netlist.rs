@@ -1,10 +1,10 @@
 //! A netlist that Python has loaded.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use lptn::{Exit, Failure, Loaded, Unit};
+use lptn::{Exit, Failure, Loaded, RowColumn, Unit};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 
 use crate::answer::Answer;
 use crate::asking::{answered, failed};
@@ -13,8 +13,8 @@ use crate::trouble::Trouble;
 use crate::verbs::named;
 use crate::words;
 
-/// Bytes of a number.
-const SIZE: usize = size_of::<f64>();
+/// Files in memory by their paths.
+pub(crate) type Files = Vec<(String, Vec<u8>)>;
 
 /// A netlist with the values that were set when it was loaded.
 #[pyclass(frozen, module = "lptn._lptn")]
@@ -33,42 +33,72 @@ fn assignments(set: &Bound<'_, PyDict>) -> PyResult<Vec<String>> {
     set.iter().map(one).collect()
 }
 
+/// The folder of a netlist, and the names of files in memory.
+fn named_in(netlist: &Path, files: &Files) -> (PathBuf, Vec<String>) {
+    let folder = netlist.parent().unwrap_or(Path::new("")).to_owned();
+    (folder, files.iter().map(|(name, _)| name.clone()).collect())
+}
+
+/// Refuses a file in memory that a netlist does not read.
+fn all_read(loaded: &Loaded, (folder, names): &(PathBuf, Vec<String>)) -> PyResult<()> {
+    let files = &loaded.usual().netlist.files;
+    // the first text is the netlist
+    let read: Vec<&Path> = files.ids().skip(1).map(|id| Path::new(files.name(id))).collect();
+    let Some(name) = names.iter().find(|name| !read.contains(&&*folder.join(name))) else {
+        return Ok(());
+    };
+    let own = read.iter().map(|path| path.strip_prefix(folder).unwrap_or(path).display());
+    let own: Vec<String> = own.map(|path| path.to_string()).collect();
+    let own = if own.is_empty() { "none".to_owned() } else { own.join(", ") };
+    let message = format!("the netlist reads no file `{name}`: it reads {own}");
+    Err(Trouble::of_value(message).into())
+}
+
 #[pymethods]
 impl Netlist {
-    /// Reads a file.
+    /// Reads a file; those that it names may be in memory.
     #[staticmethod]
-    fn read(py: Python<'_>, file: PathBuf, set: &Bound<'_, PyDict>) -> PyResult<Self> {
+    fn read(
+        py: Python<'_>,
+        file: PathBuf,
+        set: &Bound<'_, PyDict>,
+        files: Files,
+    ) -> PyResult<Self> {
         let set = assignments(set)?;
-        let loaded = py.detach(|| Loaded::read(&file, &set)).map_err(failed)?;
+        let names = named_in(&file, &files);
+        let read = || Loaded::read_with(&file, &files.into(), &set);
+        let loaded = py.detach(read).map_err(failed)?;
+        all_read(&loaded, &names)?;
         Ok(Self { loaded, file: Some(file) })
     }
 
-    /// Reads a text.
+    /// Reads a text; the files that it names may be in memory.
     #[staticmethod]
-    fn parse(py: Python<'_>, text: &str, name: &str, set: &Bound<'_, PyDict>) -> PyResult<Self> {
+    fn parse(
+        py: Python<'_>,
+        text: &str,
+        name: &str,
+        set: &Bound<'_, PyDict>,
+        files: Files,
+    ) -> PyResult<Self> {
         let set = assignments(set)?;
-        let loaded = py.detach(|| Loaded::text(name, text, &set)).map_err(failed)?;
+        let names = named_in(Path::new(name), &files);
+        let read = || Loaded::text_with((name, text), &files.into(), &set);
+        let loaded = py.detach(read).map_err(failed)?;
+        all_read(&loaded, &names)?;
         Ok(Self { loaded, file: None })
     }
 
-    /// Reads a text that names a file of candidates, which has this name, these headings, and a
-    /// column of numbers, each 8 bytes, for each of them.
-    #[staticmethod]
-    fn with_candidates(
-        py: Python<'_>,
-        text: (&str, &str),
-        file: &str,
-        columns: Vec<(String, Vec<u8>)>,
-        set: &Bound<'_, PyDict>,
-    ) -> PyResult<Self> {
-        let set = assignments(set)?;
-        let number = |bytes: &[u8]| bytes.try_into().map_or(f64::NAN, f64::from_ne_bytes);
-        let columns = columns.into_iter().map(|(heading, bytes)| {
-            (heading, bytes.chunks_exact(SIZE).map(number).collect::<Vec<f64>>())
+    /// The records of studies that fit or infer: section, name, and files as the netlist names them.
+    fn records(&self) -> Vec<(&'static str, String, Vec<String>)> {
+        let studies = &self.loaded.usual().netlist.studies;
+        let fits = studies.fits.iter().map(|study| ("fit", &study.name, study));
+        let inferred = studies.infers.iter().map(|study| ("infer", &study.name, &study.reads));
+        let all = fits.chain(inferred).map(|(section, name, study)| {
+            let csv = study.records.iter().map(|record| record.csv.clone());
+            (section, name.clone(), csv.collect())
         });
-        let columns: Vec<_> = columns.collect();
-        let read = || Loaded::with_columns(text, (file, &columns), &set);
-        Ok(Self { loaded: py.detach(read).map_err(failed)?, file: None })
+        all.collect()
     }
 
     /// Asks a question of this name; `others` are further netlists of a comparison.
@@ -87,7 +117,7 @@ impl Netlist {
             files.push(self.file.clone().ok_or_else(text)?);
             files.extend(others);
         }
-        answered(py, verb, (Some(&self.loaded), files), words)
+        answered(py, verb, (Some(&self.loaded), files, Vec::new()), words)
     }
 
     /// The doubts about the netlist as JSON; `None` without doubts.
@@ -146,4 +176,32 @@ pub(crate) fn quantity_text(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Op
         return Ok(None);
     }
     Ok(Some(words::text(value)?.ok_or_else(wrong)?))
+}
+
+/// The bytes of a CSV file with these columns: headings, and numbers of 8 bytes each or words.
+#[pyfunction]
+pub(crate) fn csv(py: Python<'_>, columns: Vec<(String, Cells)>) -> PyResult<Bound<'_, PyBytes>> {
+    let number = |bytes: &[u8]| bytes.try_into().map_or(f64::NAN, f64::from_ne_bytes);
+    let columns = columns.into_iter().map(|(name, cells)| {
+        let cells = match cells {
+            Cells::Words(words) => lptn::Cells::Words(words.into()),
+            Cells::Numbers(bytes) => {
+                let numbers = bytes.chunks_exact(size_of::<f64>()).map(number);
+                lptn::Cells::Numbers(numbers.collect())
+            }
+        };
+        RowColumn { name, unit: None, cells }
+    });
+    let columns: Vec<RowColumn<'_>> = columns.collect();
+    let bytes = py.detach(|| RowColumn::csv(&columns));
+    Ok(PyBytes::new(py, &bytes))
+}
+
+/// The cells of a column of a frame.
+#[derive(FromPyObject)]
+pub(crate) enum Cells {
+    /// Numbers, each 8 bytes.
+    Numbers(Vec<u8>),
+    /// Texts.
+    Words(Vec<String>),
 }

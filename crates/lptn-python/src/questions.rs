@@ -219,6 +219,7 @@ pub(crate) fn fit_step(asked: &Asked<'_>, words: &Words) -> Outcome {
         port: words.text("port"),
         posterior: false,
         temperature_unit: words.text("temperature_unit"),
+        files: asked.memory.clone().into(),
         command: Vec::new(),
     };
     Ok(Box::new(question.ask(&record, asked.listener)?))
@@ -243,6 +244,7 @@ fn fit_terms((record, count): (&Path, &str), asked: &Asked<'_>, words: &Words) -
         csv: CsvOptions::default(),
         power: words.text("power"),
         terms,
+        files: asked.memory.clone().into(),
         command: Vec::new(),
     };
     Ok(Box::new(question.ask(record, asked.listener)?))
@@ -267,9 +269,10 @@ pub(crate) fn fit_law(asked: &Asked<'_>, words: &Words) -> Outcome {
         reference: Some(words.text("reference").unwrap_or_else(|| "initial".to_owned())),
         sensor: words.text("sensor"),
         csv: CsvOptions::default(),
+        files: asked.memory.clone().into(),
         command: Vec::new(),
     };
-    if points.is_dir() {
+    if points.is_dir() || question.files.has_folder(&points) {
         return Ok(Box::new(question.ask_records(&points, asked.listener)?));
     }
     Ok(Box::new(question.ask(&points, asked.listener)?))

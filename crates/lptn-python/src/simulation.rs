@@ -1,7 +1,7 @@
 //! A network that Python steps.
 
 use lptn::{Diagnostic, Dimension, Exit, Failure, Quantity, Type, Unit, quantity};
-use lptn::{EventIndicator, RunSettings, SavedSimulation, SimulationError, Time};
+use lptn::{EventIndicator, RunSettings, SavedSimulation, Selection, SimulationError, Table, Time};
 use pyo3::prelude::*;
 
 use crate::asking::failed;
@@ -16,12 +16,19 @@ type Event = (f64, &'static str, String, bool, bool);
 /// An event indicator: name, value, unit.
 type Indicator = (String, f64, String);
 
+/// A column at one instant: name, unit, value.
+type Shown = (String, String, f64);
+
+/// A heat of a step: part of the ledger, name, heat in J.
+type Heat = (&'static str, String, f64);
+
 /// A network with its state at a time.
 #[pyclass(module = "lptn._lptn")]
 pub(crate) struct Simulation {
     simulation: lptn::Simulation,
     unit: Unit,
     events: Vec<Event>,
+    ledger: Vec<Heat>,
 }
 
 fn refused(error: SimulationError) -> PyErr {
@@ -47,7 +54,21 @@ fn time(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let wrong = || Trouble::of_type(format!("`{name}` takes a time such as \"10 s\""));
     let text = words::text(value)?.ok_or_else(wrong)?;
     let ty = Type::of(Dimension::TIME);
-    quantity(name, &text, ty).map(|time| time.value).map_err(failed)
+    given(name, &text, ty).map(|time| time.value)
+}
+
+/// The quantity of an argument. Its errors name it, and have no place: the user did not write the
+/// text in a file.
+fn given(name: &str, text: &str, ty: Type) -> PyResult<Quantity> {
+    quantity(name, text, ty).map_err(|mut failure| {
+        for problem in &mut failure.diagnostics {
+            problem.labels.clear();
+            if !problem.message.contains(name) {
+                problem.message = format!("`{name}`: {}", problem.message);
+            }
+        }
+        failed(failure)
+    })
 }
 
 #[pymethods]
@@ -58,7 +79,12 @@ impl Simulation {
         let read = &netlist.loaded.usual().netlist;
         let begun = py.detach(|| lptn::Simulation::new(&read.network, &settings));
         let simulation = begun.map_err(refused)?;
-        Ok(Self { simulation, unit: read.temperature_unit.clone(), events: Vec::new() })
+        Ok(Self {
+            simulation,
+            unit: read.temperature_unit.clone(),
+            events: Vec::new(),
+            ledger: Vec::new(),
+        })
     }
 
     /// The time that was reached, in s.
@@ -77,6 +103,25 @@ impl Simulation {
     fn temperature(&self, node: &str) -> PyResult<f64> {
         let found = self.simulation.temperature(node).map_err(refused)?;
         Ok(self.unit.from_si(found.0))
+    }
+
+    /// All columns at the present time: name, unit, value.
+    fn table(&self) -> PyResult<Vec<Shown>> {
+        let network = self.simulation.network();
+        let at = self.simulation.snapshot().map_err(refused)?;
+        let all = Selection::all(network);
+        let table = Table::of_snapshot(network, &at, &all, &self.unit);
+        let table = table.map_err(|error| failed(Failure::of(&error)))?;
+        let shown = table.columns().iter().flat_map(|column| {
+            column.values.iter().map(|value| (column.name.clone(), column.unit.clone(), *value))
+        });
+        Ok(shown.collect())
+    }
+
+    /// The heats of the last step in J: part, name, heat.
+    #[getter]
+    fn ledger(&self) -> Vec<Heat> {
+        self.ledger.clone()
     }
 
     /// The value of a state of `[state]` in its SI unit.
@@ -133,7 +178,7 @@ impl Simulation {
         let read = serde_json::from_str::<SavedSimulation>(saved);
         let saved = read.map_err(|error| Trouble::of_value(error.to_string()))?;
         self.simulation.restore(&saved).map_err(refused)?;
-        self.events.clear();
+        self.forget();
         Ok(())
     }
 }
@@ -148,12 +193,18 @@ impl Simulation {
         // a name that is neither is refused when it is set
         let ty = ty.or_else(|| of_signal().map(|signal| signal.ty));
         let Some(ty) = ty else { return self.unknown(name) };
-        quantity(name, text, ty).map_err(failed)
+        given(name, text, ty)
     }
 
     fn unknown(&self, name: &str) -> PyResult<Quantity> {
         let refusal = self.simulation.clone().set(name, 0.0).err().map(refused);
         Err(refusal.unwrap_or_else(|| Trouble::fault("an input without a type").into()))
+    }
+
+    /// Nothing has happened in the last step.
+    fn forget(&mut self) {
+        self.events.clear();
+        self.ledger.clear();
     }
 
     fn goes(&mut self, py: Python<'_>, to: f64) -> PyResult<()> {
@@ -163,7 +214,7 @@ impl Simulation {
             return Err(Trouble::of_value(message).into());
         }
         if to <= now {
-            self.events.clear();
+            self.forget();
             return Ok(());
         }
         let simulation = &mut self.simulation;
@@ -175,6 +226,9 @@ impl Simulation {
             (event.time, event.kind.word(), name, event.before == 1, event.after == 1)
         };
         self.events = answer.events().iter().map(one).collect();
+        let heats = answer.ledger().heats(answer.network()).into_iter();
+        self.ledger = heats.map(|(part, name, heat)| (part, name.into_owned(), heat)).collect();
+        self.ledger.push(("residual", String::new(), answer.ledger().residual()));
         Ok(())
     }
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use lptn::{Belief, Input, Listener, Loaded};
 
+use crate::netlist::Files;
 use crate::trouble::Trouble;
 use crate::words::Words;
 
@@ -17,6 +18,8 @@ pub(crate) struct Asked<'a> {
     pub(crate) net: Option<&'a Loaded>,
     /// The netlists that it reads itself.
     pub(crate) files: Vec<PathBuf>,
+    /// Files in memory by their paths.
+    pub(crate) memory: Files,
     /// Hears doubts; says if Ctrl-C was pressed.
     pub(crate) listener: &'a dyn Listener,
 }

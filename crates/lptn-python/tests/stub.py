@@ -7,7 +7,7 @@ import keyword
 import sys
 
 from lptn import _lptn
-from lptn._questions import method_name
+from lptn._questions import RECORDS, method_name
 
 HEAD = '''"""Questions to a network. Written by tests/stub.py from the declarations in src/verbs.rs."""
 
@@ -25,7 +25,7 @@ from ._result import Explain, Result
 Text = str | os.PathLike[str] | SupportsFloat | tuple[float, str]
 Netlist = str | os.PathLike[str] | Network
 
-MORE: list[tuple[str, str]]
+RECORDS: tuple[str, ...]
 
 def answered(
     answer: _lptn.Answer,
@@ -35,14 +35,18 @@ def answered(
     explain: Explain | None = None,
     network: Any = None,
 ) -> Result: ...
+def more(question: str, sets: bool) -> list[tuple[str, str]]: ...
 def paths(netlists: tuple[Any, ...]) -> list[str]: ...
 def method_name(question: str) -> str: ...
 
 class Questions:
     _set: dict[str, Any]
     @property
+    def _files(self) -> list[tuple[str, bytes]]: ...
+    @property
     def _netlist(self) -> _lptn.Netlist: ...
-    def _explain(self, of: Error | list[Problem]) -> None: ...
+    def _with_data(self, question: str, study: str | None, data: Any) -> _lptn.Netlist: ...
+    def _explain(self, of: Error | list[Problem], data: bool = False) -> None: ...
 '''
 
 
@@ -61,8 +65,10 @@ def method(question):
         lines += [argument(option, kind) for option, kind, _ in options if option == first]
         lines.append("        *,\n")
     lines += [argument(option, kind) for option, kind, _ in options if option != first]
+    if name in RECORDS:
+        lines.append("        data: Any = None,\n")
     if sets:
-        several = " | Sequence[Text]" if name == "compare" else ""
+        several = " | Sequence[Text] | tuple[Sequence[float], str]" if name == "compare" else ""
         lines.append("        progress: bool | Told = False,\n")
         lines.append("        set: dict[str, Any] | None = None,\n")
         lines.append("        options: dict[str, Any] | None = None,\n")

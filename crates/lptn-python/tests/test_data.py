@@ -109,11 +109,7 @@ class Data(unittest.TestCase):
         kelvin = self.net.run(temperature_unit="K").plot("block.T")
         self.assertEqual((kelvin.get_ylabel(), kelvin.lines[-1].get_ydata()[0]), ("block.T [K]", 333.15))
         one = plt.subplots()[1]
-        for names, label in [
-            ("block.T", "block.T [degC]"),
-            ("air.T", "temperature [degC]"),
-            ("heat.P", "temperature [degC], heat.P [W]"),
-        ]:
+        for names, label in [("block.T", "block.T [degC]"), ("air.T", "temperature [degC]")]:
             self.run[names].plot(ax=one)
             self.assertEqual(one.get_ylabel(), label)
         one.cla()
@@ -123,6 +119,45 @@ class Data(unittest.TestCase):
         back = self.run["block.T"][::-1].plot(ax=plt.subplots()[1]).lines[0]
         np.testing.assert_array_equal(back.get_xdata(), np.array(self.run["time"])[::-1])
         np.testing.assert_array_equal(back.get_ydata(), self.hot[::-1])
+
+    @needs("matplotlib")
+    def test_each_unit_has_its_panel(self):
+        import matplotlib
+
+        matplotlib.use("Agg")
+        import matplotlib.pyplot as plt
+
+        self.addCleanup(plt.close, "all")
+        panels = self.run.plot("block.T", "heat.P", "air.T")
+        self.assertEqual([ax.get_ylabel() for ax in panels], ["temperature [degC]", "heat.P [W]"])
+        self.assertEqual([ax.get_xlabel() for ax in panels], ["", "time [s]"])
+        self.assertEqual([ax.get_title() for ax in panels], ["netlist", ""])
+        self.assertEqual(self.run.plot("block.T", title="One body").get_title(), "One body")
+        one = plt.subplots()[1]
+        self.assertEqual(self.run.plot(ax=one).get_title(), "")
+        for wrong in [lambda: self.run.plot("block.T", "heat.P", ax=one),
+                      lambda: self.run["heat.P"].plot(ax=one)]:
+            self.assertRaises(ValueError, wrong)
+        self.run["heat.P"].plot(ax=one.twinx())
+        # the present axes are those of a temperature
+        plt.sca(one)
+        self.assertIsNot(self.run["heat.P"].plot(), one)
+        swept = self.net.sweep({"P": [1]})
+        for wrong in [swept.plot, lambda: swept.plot("failed")]:
+            self.assertRaises(TypeError, wrong)
+
+    @needs("matplotlib")
+    def test_bands_are_drawn(self):
+        import matplotlib
+
+        matplotlib.use("Agg")
+        import matplotlib.pyplot as plt
+
+        self.addCleanup(plt.close, "all")
+        run = lptn.parse(BODY.replace("2 W/K", "2 W/K ± 5 %")).run(uncertainty="linear")
+        (band,) = run.plot().collections
+        ends = band.get_paths()[0].vertices[:, 1]
+        self.assertAlmostEqual(ends.max(), run["block.T.high"].max(), places=9)
 
     def test_titles(self):
         net = lptn.parse('title = "A body"\n' + BODY)

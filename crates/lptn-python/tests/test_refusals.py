@@ -62,6 +62,23 @@ class Arguments(unittest.TestCase):
             self.refused(TypeError, lambda: self.net.run(set={"P": value}), "`P` takes one value")
         self.refused(TypeError, lambda: lptn.parse(BODY, P=["3 W", "4 W"]), "`P` takes one value")
 
+    def test_variants_have_units(self):
+        files = sorted((GEARBOX.parent / "candidates").glob("*.toml"))[:2]
+        net = lptn.load(GEARBOX)
+        for value, right in [([3, 4], '([3, 4], "W")'), (np.array([3.5, 4]), '([3.5, 4.0], "W")'),
+                             (["3 W", 4], '["3 W", "4 W"]')]:
+            for ask in [net.compare, lambda **words: lptn.compare(GEARBOX, *files, **words)]:
+                self.refused(TypeError, lambda: ask(P_7000=value), f"with their unit: P_7000={right}")
+        for value in [([200, 250], "W"), (np.array([200, 250]), "W"), ["200 W", "250 W"]]:
+            self.assertEqual(net.compare(P_7000=value).csv(), net.compare(P_7000=["200 W", "250 W"]).csv())
+
+    def test_options_are_named(self):
+        net = lptn.load(GEARBOX)
+        for words in [{"time": "x"}, {"at": "x"}, {"duty": "x"}]:
+            (name,) = words
+            error = self.refused(lptn.Error, lambda: net.impedance("steel", **words))
+            self.assertTrue(str(error).startswith(f"`{name}`: expected a number"), str(error))
+
     def test_columns_of_a_frame(self):
         for column in [[3, None], [[3, 4]], 3, ["3 W"], np.ones((2, 2)), np.array(3), "3 W"]:
             self.refused(TypeError, lambda: self.net.sweep({"P": column}), "column `P`")
@@ -80,7 +97,7 @@ class Arguments(unittest.TestCase):
         self.refused(TypeError, lambda: self.net.sweep({"P": [1], "P [W]": [2]}), "more than one")
         self.refused(TypeError, lambda: self.net.sweep({"P": [1], "note": ["a"]}), "take frame[['P']]")
         frame = {"P": [1.0, float("nan")]}
-        self.refused(lptn.Error, lambda: self.net.sweep(frame), "candidate 2: column `P`")
+        self.refused(ValueError, lambda: self.net.sweep(frame), "column `P`", "nan in row 1")
 
     def test_plots_and_durations(self):
         self.refused(TypeError, self.net.steady().plot, "a steady state has no curves")
@@ -119,9 +136,19 @@ class Arguments(unittest.TestCase):
             ("`--stop` must be a time", "`stop` must be a time"),
             ('write `--temperature-unit "K"`', 'write `temperature_unit="K"`'),
             ("write for example --keep steel,housing", 'write for example keep="steel,housing"'),
-            ("more --samples, smaller ones", "more samples, smaller ones"),
-            ("`lptn impedance a.toml --port steel`", "`lptn impedance a.toml --port steel`"),
-            ("run without --certify, or --slice z=1", "run without certify, or --slice z=1"),
+            ("more --samples, smaller ones", "more `samples`, smaller ones"),
+            ("`lptn impedance a.toml --port steel`", '`net.impedance(port="steel")`'),
+            ("let `lptn steady --periodic` find it", "let `net.steady(periodic=True)` find it"),
+            ('`lptn run --set "P=3 W"`', '`net.run(P="3 W")`'),
+            ("`lptn fit step a.csv --from '30 s'`", '`lptn.fit_step("a.csv", from_="30 s")`'),
+            ("`lptn graph a.toml`", "`lptn graph a.toml`"),
+            ("`lptn run a.toml --report`", "`lptn run a.toml --report`"),
+            ("--at 1 h is outside", 'at="1 h" is outside'),
+            ("write --duty 0.5,0.2,0.1", 'write duty="0.5,0.2,0.1"'),
+            ("name it: --to NODE", 'name it: to="NODE"'),
+            ("without `--foster 4`, or --foster 4", "without `foster=4`, or foster=4"),
+            ("give a unit (a command: `--unit t=s`)", "give a unit"),
+            ("run without --certify, or --slice z=1", "run without `certify`, or --slice z=1"),
         ]:
             self.assertEqual(in_python(text), expected)
         error = self.refused(lptn.Error, lambda: self.net.run(stop="2"), "`stop` must be a time")
@@ -136,7 +163,14 @@ class Arguments(unittest.TestCase):
 
     def test_simulations(self):
         sim = self.net.simulation()
-        self.refused(KeyError, lambda: sim["cooling.Q"], "has temperatures")
+        self.refused(KeyError, lambda: sim["cooling.x"], "the columns are block.T")
+        for call, words in [
+            (lambda: sim.step("10 m"), "`length` must be a time"),
+            (lambda: sim.advance("x"), "`to`: expected a number"),
+            (lambda: sim.set(P=3), "`P` must be a power"),
+        ]:
+            error = self.refused(lptn.Error, call, words)
+            self.assertTrue(str(error).startswith("`") and not error.places)
         self.refused(lptn.Error, lambda: sim.release("Q"), "`Q`")
         sim.advance("0 s")
         sim.step("0 s")

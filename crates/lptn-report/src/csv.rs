@@ -37,6 +37,16 @@ pub fn write_csv(table: &Table, out: impl io::Write) -> io::Result<()> {
     lines.finish()
 }
 
+impl RowColumn<'_> {
+    /// These columns as the bytes of a CSV file.
+    pub fn csv(columns: &[RowColumn<'_>]) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        // a vector takes everything
+        drop(write_columns(columns, &mut bytes));
+        bytes
+    }
+}
+
 fn write_columns(columns: &[RowColumn<'_>], out: impl io::Write) -> io::Result<()> {
     if columns.is_empty() {
         return Ok(());

@@ -1,7 +1,9 @@
 //! The energy ledger of a run: heat in, heat out and stored heat.
 
+use std::borrow::Cow;
+
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_network::{InputError, Network, NodeId};
+use lptn_network::{Conductor, ConductorKind, InputError, Item, Network, NodeId};
 
 /// Heat exchanged during a run, in J.
 ///
@@ -35,6 +37,17 @@ pub struct Ledger {
 const PIPED: f64 = 1e-4;
 
 impl Ledger {
+    /// The part of the heat of sources.
+    pub const SOURCES: &str = "sources";
+    /// The part of the heat of boundaries.
+    pub const BOUNDARIES: &str = "boundaries";
+    /// The part of the heat of streams.
+    pub const STREAMS: &str = "streams";
+    /// The part of the heat that came with masses.
+    pub const MASSES: &str = "masses";
+    /// The part of the heat that nodes stored.
+    pub const STORED: &str = "stored";
+
     /// From a tolerance in K and the growth in J/K of capacities that follow states.
     pub(crate) fn new(
         system: &ThermalSystem,
@@ -74,6 +87,27 @@ impl Ledger {
         let masses = network.state_capacities().iter().zip(&self.masses);
         let mass: f64 = masses.filter(|(of, _)| of.node == node).map(|(_, heat)| heat).sum();
         self.stored[node.index()] - mass
+    }
+
+    /// The heats in J, each with its part of the ledger and the name of its giver or taker.
+    pub fn heats<'n>(&self, network: &'n Network) -> Vec<(&'static str, Cow<'n, str>, f64)> {
+        let named = |item: Item| network.name_of(item);
+        let sources = network.heat_sources();
+        let sources = sources.map(|id| (named(Item::Source(id)), self.sources[id.index()]));
+        let boundaries = network.boundary_ids().zip(&self.boundaries);
+        let boundaries = boundaries.map(|(id, heat)| (named(Item::Boundary(id)), *heat));
+        let streams = network.conductors().iter().filter(|c| c.kind == ConductorKind::Advection);
+        let streams = streams.map(Conductor::name).zip(self.streams.iter().copied());
+        let masses = network.state_capacities().iter().map(|of| named(Item::Node(of.node)));
+        let masses = masses.zip(self.masses.iter().copied());
+        let nodes = network.thermal_nodes();
+        let stored = nodes.map(|id| (named(Item::Node(id)), self.stored[id.index()]));
+        let of = |part: &'static str| move |(name, heat)| (part, name, heat);
+        (sources.map(of(Self::SOURCES)).chain(boundaries.map(of(Self::BOUNDARIES))))
+            .chain(streams.map(of(Self::STREAMS)))
+            .chain(masses.map(of(Self::MASSES)))
+            .chain(stored.map(of(Self::STORED)))
+            .collect()
     }
 
     /// Sources plus boundaries plus streams plus masses less stored heat, in J: zero but for rounding and the

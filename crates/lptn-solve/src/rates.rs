@@ -5,6 +5,7 @@ use lptn_network::{InputError, Positions};
 
 use crate::events::{ControlState, EventKind};
 use crate::pipe;
+use crate::snapshot::Snapshot;
 use crate::state::State;
 use crate::times::just_after;
 use crate::unfold::{Unfold, carried};
@@ -85,6 +86,17 @@ impl<'a> StateRates<'a> {
         let rates = flow.iter().zip(self.system.capacity()).map(|(heat, capacity)| heat / capacity);
         let nodes = self.system.node_temperatures(&self.work).to_vec();
         Ok(Rates { states: rates.collect(), nodes })
+    }
+
+    /// Temperatures and heat flows at `time` in s, just after any jump there.
+    ///
+    /// # Errors
+    /// As [`StateRates::at`].
+    pub fn snapshot(&mut self, time: f64, states: &[f64]) -> Result<Snapshot, Unsolved> {
+        self.place(time, states)?;
+        let (system, unknowns) = (self.system, self.unfold.last());
+        let of = Snapshot::of_workspace(system, &mut self.work, unknowns, (time, false));
+        of.map_err(input)
     }
 
     /// Heat into each unknown in W at the time and state that were placed last.

@@ -6,6 +6,7 @@ use lptn_units::Unit;
 
 use crate::quantity::{Quantity, Shown};
 use crate::selection::Selection;
+use crate::snapshot::Snapshot;
 use crate::steady::SteadyState;
 use crate::table::{Column, Table};
 
@@ -49,13 +50,7 @@ impl SteadyColumns {
     /// # Errors
     /// [`InputError`] if a report cannot be evaluated.
     pub fn table(&self, network: &Network, steady: &SteadyState) -> Result<Table, InputError> {
-        let mut scope = steady.evaluation(network);
-        let mut column = |head: &Head| {
-            let value = steady.value(network, head.quantity, &mut scope)?;
-            let values = vec![head.shown.value(value, &self.unit)];
-            Ok(Column { name: head.name.clone(), unit: head.unit.clone(), values })
-        };
-        let columns: Result<Vec<Column>, InputError> = self.heads.iter().map(&mut column).collect();
+        let columns = self.now(network, steady)?;
         let numbers = steady.reports_over_time(network)?;
         let numbers = numbers.iter().map(|seen| {
             let report = &network.reports()[seen.report.index()];
@@ -63,11 +58,36 @@ impl SteadyColumns {
             let (unit, value) = (shown.unit(&self.unit), shown.value(seen.value, &self.unit));
             Column { name: report.name.clone(), unit, values: vec![value] }
         });
-        Ok(Table::of_columns(columns?.into_iter().chain(numbers).collect()))
+        Ok(Table::of_columns(columns.into_iter().chain(numbers).collect()))
+    }
+
+    /// The columns at one instant.
+    fn now(&self, network: &Network, at: &Snapshot) -> Result<Vec<Column>, InputError> {
+        let mut scope = at.evaluation(network);
+        let mut column = |head: &Head| {
+            let value = at.value(network, head.quantity, &mut scope)?;
+            let values = vec![head.shown.value(value, &self.unit)];
+            Ok(Column { name: head.name.clone(), unit: head.unit.clone(), values })
+        };
+        self.heads.iter().map(&mut column).collect()
     }
 }
 
 impl Table {
+    /// The selected columns at one instant as a table of one row, temperatures in `unit`.
+    ///
+    /// # Errors
+    /// [`InputError`] if a report cannot be evaluated.
+    pub fn of_snapshot(
+        network: &Network,
+        at: &Snapshot,
+        selection: &Selection,
+        unit: &Unit,
+    ) -> Result<Self, InputError> {
+        let columns = SteadyColumns::of(network, selection, unit).now(network, at)?;
+        Ok(Self::of_columns(columns))
+    }
+
     /// The selected columns of a steady state and its reports over time as a table of one row,
     /// temperatures in `unit`.
     ///

@@ -1,8 +1,6 @@
 //! Ledger and counters in the form in which they are written.
 
-use std::borrow::Cow;
-
-use lptn_network::{Conductor, ConductorKind, Item, Network, NodeId, SourceId};
+use lptn_network::Network;
 use lptn_solve::{Ledger, Solution};
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -58,24 +56,17 @@ pub struct LedgerRecord {
 impl LedgerRecord {
     /// The ledger of a run of `network`.
     pub fn new(network: &Network, ledger: &Ledger) -> Self {
-        let heat = |id: &SourceId| ledger.sources[id.index()];
-        let ids: Vec<SourceId> = network.heat_sources().collect();
-        let sources = ids.iter().map(|id| network.name_of(Item::Source(*id)));
-        let given: Vec<f64> = ids.iter().map(heat).collect();
-        let boundaries = network.boundaries().iter().map(|b| Cow::from(&b.name));
-        let streams = network.conductors().iter().filter(|c| c.kind == ConductorKind::Advection);
-        let streams = streams.map(Conductor::name);
-        let masses = network.state_capacities().iter();
-        let masses = masses.map(|of| network.name_of(Item::Node(of.node)));
-        let ids: Vec<NodeId> = network.thermal_nodes().collect();
-        let nodes = ids.iter().map(|id| network.name_of(Item::Node(*id)));
-        let stored: Vec<f64> = ids.iter().map(|id| ledger.stored[id.index()]).collect();
+        let heats = ledger.heats(network);
+        let of = |part: &str| -> Map<String, Value> {
+            let own = heats.iter().filter(|(of, ..)| *of == part);
+            own.map(|(_, name, heat)| (name.to_string(), SiValue::new(*heat, "J").json())).collect()
+        };
         Self {
-            sources: by_name(sources, &given),
-            boundaries: by_name(boundaries, &ledger.boundaries),
-            streams: by_name(streams, &ledger.streams),
-            masses: by_name(masses, &ledger.masses),
-            stored: by_name(nodes, &stored),
+            sources: of(Ledger::SOURCES),
+            boundaries: of(Ledger::BOUNDARIES),
+            streams: of(Ledger::STREAMS),
+            masses: of(Ledger::MASSES),
+            stored: of(Ledger::STORED),
             turned_over: SiValue::new(ledger.turned_over, "J"),
             residual: SiValue::new(ledger.residual(), "J"),
             relative_residual: ledger.relative_residual().map(|r| SiValue::new(r, "1")),
@@ -83,13 +74,6 @@ impl LedgerRecord {
             closes: ledger.closes(),
         }
     }
-}
-
-fn by_name<'a>(names: impl Iterator<Item = Cow<'a, str>>, heat: &[f64]) -> Map<String, Value> {
-    names
-        .zip(heat)
-        .map(|(name, &heat)| (name.into_owned(), SiValue::new(heat, "J").json()))
-        .collect()
 }
 
 /// The integrator's counters by name, whole numbers with the unit `1`.

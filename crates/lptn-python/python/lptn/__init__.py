@@ -17,8 +17,9 @@ if TYPE_CHECKING:
     from ._gradient import Function
     from ._help import help
     from ._messages import Doubt, Error, Fix, Made, Place, Problem
-    from ._network import Network, Simulation, load, parse
+    from ._network import Network, load, parse
     from ._result import Result, Table
+    from ._simulation import Simulation
 
 __all__ = [
     "Column",
@@ -51,8 +52,9 @@ _MODULES = {
     "_gradient": ["Function"],
     "_help": ["help"],
     "_messages": ["Doubt", "Error", "Fix", "Made", "Place", "Problem"],
-    "_network": ["Network", "Simulation", "load", "parse"],
+    "_network": ["Network", "load", "parse"],
     "_result": ["Result", "Table"],
+    "_simulation": ["Simulation"],
 }
 _HOME = {name: module for module, names in _MODULES.items() for name in names}
 

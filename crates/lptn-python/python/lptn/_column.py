@@ -114,17 +114,25 @@ class Column(np.ndarray[Any, np.dtype[np.float64]]):
         return f"{self.index.name} [{self.index.unit}]" if self.index is not None else ""
 
     def _axes(self, ax: Any) -> Any:
-        """Axes whose time has the same unit."""
+        """Axes whose values and times have the same units."""
         from ._frames import needed
 
         plt = needed("matplotlib.pyplot", "plot()")
         there = ax if ax is not None else plt.gca()
-        shown = there.get_xlabel()
-        if not shown or shown == self._over or not shown.startswith("time ["):
+        over = there.get_xlabel()
+        shown = [column for line, column in _shown.get(there, []) if line.axes is there]
+        others = [column for column in shown if column.unit != self.unit]
+        of_other_times = over.startswith("time [") and over != self._over
+        if not others and not of_other_times:
             return there
-        if ax is not None:
-            raise ValueError(f"the axes show {shown}, the column is over {self._over}")
-        return plt.subplots()[1]
+        if ax is None:
+            return plt.subplots()[1]
+        if others:
+            raise ValueError(
+                f"the axes show {_label(others)}, and `{self.name}` is in {self.unit}: give it axes "
+                "of its own, such as ax.twinx()"
+            )
+        raise ValueError(f"the axes show {over}, the column is over {self._over}")
 
     def copy(self, order: Literal["K", "A", "C", "F"] | None = "C") -> Column:
         """The same column, with its own values."""
@@ -218,3 +226,13 @@ def of_bytes(name: str, unit: str, data: bytes, index: Column | None, scalar: bo
     """A column, or one number, of these bytes, which are not copied and cannot be changed."""
     shape = () if scalar else len(data) // 8
     return _named(np.ndarray.__new__(Column, shape, np.float64, data), name, unit, index)
+
+
+def of_json(heads: list[dict[str, str]], rows: list[list[float | None]]) -> dict[str, Column]:
+    """The columns of the rows of a result in JSON."""
+    values = np.array(rows, dtype=float).reshape(-1, len(heads))
+    made: dict[str, Column] = {}
+    for place, head in enumerate(heads):
+        index = made.get("time")
+        made[head["name"]] = column(head["name"], head["unit"], values[:, place].copy(), index)
+    return made

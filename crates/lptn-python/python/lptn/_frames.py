@@ -32,6 +32,8 @@ def columns(table: Table) -> dict[str, Any]:
 def pandas(table: Table, words: dict[str, Any]) -> Any:
     """A pandas DataFrame; times are the index. The numbers are not copied."""
     made = needed("pandas", "to_pandas()").DataFrame(columns(table), **{"copy": False, **words})
+    if table.index is not None and len(table.index) == len(made):
+        made.index = table.index
     return made.set_index(table.head("time")) if "time" in table.units else made
 
 

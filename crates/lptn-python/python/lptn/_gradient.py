@@ -59,12 +59,12 @@ class Function:
         self._one = isinstance(of, str)
         margins, reports = _split(texts)
         text = _study(network, self.parameters, reports, self.over)
-        source, name = network.text
+        source, _ = network.text
         stop, _ = run
         if self.over == "run" and stop is not None and not _RUN.search(source):
             text += f"[run]\nstop = {json.dumps(stop)}\n"
         try:
-            netlist = _lptn.Netlist.parse(f"{source}\n{text}", name, network._set)
+            netlist = network._with(f"\n{text}")
             study = ("lptn_gradient", len(reports))
             self._of = _lptn.Gradient(netlist, study, list(margins.values()), run)
         except Error as error:

@@ -7,7 +7,7 @@ import inspect
 from typing import Any
 
 from . import _lptn
-from ._questions import MORE, method_name
+from ._questions import method_name, more
 
 
 # Methods of a network that are not a question.
@@ -74,7 +74,7 @@ def _question(
 ) -> str:
     lines = [f"lptn {name}  {purpose}"]
     lines += [f"  {option}: {means}" for option, _, means in options]
-    lines += [f"  {option}: {means}" for option, means in MORE] if sets else []
+    lines += [f"  {option}: {means}" for option, means in more(name, sets)]
     return "\n".join([*lines, "  other keywords are parameters of the netlist"] if sets else lines)
 
 

@@ -10,10 +10,15 @@ from collections.abc import Mapping
 from typing import Any
 
 from . import _lptn
+from ._memory import File, csv, is_frame
 from ._messages import Error, Made, Problem
 
 # The folder of this package, whose own lines are not places.
 _HERE = os.path.dirname(os.path.abspath(__file__))
+
+
+# Keys that name files: a frame may stand there.
+_FILES = ("csv", "data", "file")
 
 
 class Tables:
@@ -22,6 +27,7 @@ class Tables:
     def __init__(self, name: str, parameters: dict[str, Any]) -> None:
         self.name = name
         self.parameters = parameters
+        self.files: list[File] = []
         self._top: dict[str, Any] = {"format": 1}
         self._sections: dict[str, dict[str, Any]] = {}
         self._made: dict[tuple[str, str], Made] = {}
@@ -44,16 +50,30 @@ class Tables:
         entries = self._sections.setdefault(section, {})
         if name in entries:
             raise ValueError(f"{section} {name!r} is there already: {self._made[section, name]}")
-        entries[name] = value
+        entries[name] = self._filed("", value, f"{section}.{name}")
         self._made[section, name] = _made(section, name)
         self._netlist = None
+
+    def _filed(self, key: str, value: Any, stem: str) -> Any:
+        """A value with the name of a file for each frame, which is a file in memory."""
+        if key in _FILES and is_frame(value):
+            count = len(self.files)
+            self.files.append((f"{stem}.csv" if not count else f"{stem}.{count}.csv", csv(value)))
+            return self.files[-1][0]
+        if isinstance(value, Mapping):
+            return {inner: self._filed(inner, one, stem) for inner, one in value.items()}
+        if isinstance(value, list):
+            return [self._filed(key, one, stem) for one in value]
+        return value
 
     @property
     def netlist(self) -> _lptn.Netlist:
         """The netlist, read again if something was added."""
         if self._netlist is None:
             try:
-                self._netlist = _lptn.Netlist.parse(self.text, self.name, self.parameters)
+                self._netlist = _lptn.Netlist.parse(
+                    self.text, self.name, self.parameters, self.files
+                )
             except Error as error:
                 self.explain(error.errors)
                 error.refresh()
@@ -86,14 +106,16 @@ class Tables:
         return lines
 
 
-def of_text(text: str, name: str, parameters: dict[str, Any]) -> Tables:
+def of_text(text: str, name: str, parameters: dict[str, Any], files: list[File]) -> Tables:
     """The tables of a netlist."""
     try:
         import tomllib
     except ImportError:  # Python 3.10
         raise ImportError("reading the tables of a text needs Python 3.11 or newer") from None
-    _lptn.Netlist.parse(text, name, parameters)  # its problems have places in the text
+    # its problems have places in the text
+    _lptn.Netlist.parse(text, name, parameters, files)
     made = Tables(name, parameters)
+    made.files = files
     for key, value in tomllib.loads(text).items():
         if not isinstance(value, dict):
             made.top(key, value)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import keyword
 import os
 import re
+import shlex
 import warnings
 from functools import lru_cache
 from typing import Any
@@ -18,10 +20,11 @@ CANDIDATES = "lptn-candidates.csv"
 _COMMAND = re.compile(r"(`lptn [^`]*`|\blptn [a-z]+ [^`;:]*)")
 # A parameter that is set: `--set "P=3 W"`.
 _SET = re.compile(r"""--set ("?)([\w.]+)=([^"`]*[^"`\s])\1""")
-# An option, perhaps with its value: `--stop "2 h"`, `--keep steel,housing`.
-_OPTION = re.compile(
-    r"""--([a-z][a-z-]*)(?:[ =](?:["']([^"']*)["']|(\d[^\s,;`]*|[A-Z]{4,}|\w+,[\w,]+)))?"""
-)
+# A remark about the option of a command, where Python has a keyword or nothing.
+_REMARK = re.compile(r" \(a command: [^)]*\)")
+# An option, perhaps with its value: `--stop "2 h"`, `--at 1 h`, `--keep steel,housing`, `--to NODE`.
+_VALUE = r"\d[\w.%]*(?: (?:ms|s|min|h|d|K|degC|J/K|W)\b)?(?:,[\w.]+)*|[A-Z]{4,}|\w+(?:,\w+)+"
+_OPTION = re.compile(rf"""(`?)--([a-z][a-z-]*)(?:[ =](?:["']([^"']*)["']|({_VALUE})))?(`?)""")
 
 
 @lru_cache(maxsize=1)
@@ -29,23 +32,73 @@ def _options() -> set[str]:
     return {"set", *(option for question in _lptn.questions() for option, *_ in question[5])}
 
 
+def _keyword(name: str) -> str:
+    """The keyword for an option: Python reserves `for` and `from`."""
+    return f"{name}_" if keyword.iskeyword(name) else name
+
+
 def in_python(text: str) -> str:
     """A sentence with the words of Python: `stop="2 h"` for `--stop "2 h"`."""
 
     def option(match: re.Match[str]) -> str:
-        name = match[1].replace("-", "_")
+        name = match[2].replace("-", "_")
         if name not in _options():
             return match[0]
-        value = match[2] or match[3]
-        return f'{"for_" if name == "for" else name}="{value}"' if value else name
+        value, name = match[3] or match[4], _keyword(name)
+        if value:
+            name = f"{name}={value}" if value.isdigit() else f'{name}="{value}"'
+            return f"{match[1]}{name}{match[5]}"
+        # a word alone is marked as one, unless it is a part of what is marked
+        return f"`{name}`" if match[1] == match[5] else f"{match[1]}{name}{match[5]}"
 
-    parts = _COMMAND.split(text)
+    parts = _COMMAND.split(_REMARK.sub("", text))
     parts[::2] = [_OPTION.sub(option, _SET.sub(r'\2="\3"', part)) for part in parts[::2]]
+    parts[1::2] = [_call(part) for part in parts[1::2]]
     return "".join(parts)
 
 
+def _call(command: str) -> str:
+    """A command in backticks as a call: `net.steady(periodic=True)`; others stay as they are."""
+    try:
+        words = shlex.split(command.strip("`"))[1:]
+    except ValueError:
+        return command
+    for name, about, _, first, _, options in _lptn.questions() if command[0] == "`" else ():
+        verb = name.split()
+        if words[: len(verb)] == verb and (about != "nothing" or len(verb) > 1):
+            kinds = {option: kind for option, kind, _ in options}
+            made = _arguments(words[len(verb) :], kinds, first if about == "nothing" else None)
+            if made is not None:
+                method = "fit" if name == "fit network" else name.replace(" ", "_")
+                return f"`{'lptn' if about == 'nothing' else 'net'}.{method}({made})`"
+    return command
+
+
+def _arguments(words: list[str], kinds: dict[str, str], first: str | None) -> str | None:
+    """The words of a command as arguments of a call; `None` if a call has none of them."""
+    made: list[str] = []
+    left = iter(words)
+    for word in left:
+        name = word.removeprefix("--").replace("-", "_")
+        if not word.startswith("--"):
+            # the network is that of the method
+            made += [json.dumps(word)] if first else []
+        elif name == "set":
+            key, _, value = next(left, "").partition("=")
+            made.append(f"{key}={json.dumps(value)}")
+        elif name not in kinds:
+            return None
+        else:
+            value = "True" if kinds[name] == "bool" else json.dumps(next(left, ""))
+            made.append(f"{_keyword(name)}={value}")
+    return ", ".join(made)
+
+
 class Place:
-    """A place in a netlist: file, line and column from 1, and the text there."""
+    """A place in a netlist: file, line and column from 1, and the text there.
+
+    In a frame `row` counts its rows from 0, and is -1 for the headings.
+    """
 
     def __init__(self, data: dict[str, Any]) -> None:
         self.file: str = data["file"]
@@ -56,8 +109,11 @@ class Place:
         self.text: str = data["text"]
         self.label: str = data.get("label", "")
         self.primary: bool = data.get("primary", True)
+        self.row: int | None = None
 
     def __repr__(self) -> str:
+        if self.row is not None:
+            return f"{self.file}, {f'row {self.row}' if self.row >= 0 else 'headings'}"
         return f"{self.file}:{self.line}:{self.column}"
 
 
@@ -98,11 +154,16 @@ class Problem:
         self.places: list[Place] = [Place(place) for place in data.get("places", [])]
         self.fix: Fix | None = Fix(data["fix"]) if data.get("fix") else None
         self.made: Made | None = None
+        if self.code == "netlist::csv_not_found" and self.help and self.places:
+            self.help += f"; a frame may take its place: files={{{self.places[0].text}: frame}}"
 
     def __str__(self) -> str:
-        # the place of an argument is an option of the command line
-        primary = [p for p in self.places if p.primary and not p.file.startswith("--")]
+        primary = [place for place in self.places if place.primary]
         where = f"{self.made or primary[0]!r}: " if primary else ""
+        # the place of an argument is an option of the command line
+        if primary and primary[0].file.startswith("--"):
+            name = in_python(primary[0].file)
+            where = "" if name in self.message or "--set" in primary[0].file else f"{name}: "
         help = f"\n  help: {self.help}" if self.help else ""
         return f"{where}{self.message} [{self.code}]{help}"
 

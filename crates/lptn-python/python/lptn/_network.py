@@ -4,21 +4,43 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from threading import RLock
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _lptn
 from ._frame import explain as explain_sweep
 from ._frame import sweep as frame_sweep
 from ._made import Tables, of_text
 from ._made import keys as made_keys
+from ._memory import File, merged, records
+from ._memory import explain as explain_rows
+from ._memory import files as memory_files
 from ._messages import Error, Problem, problems
 from ._questions import Questions, answered, paths
 from ._result import Result
-from ._values import values
+from ._values import given, values
 
 if TYPE_CHECKING:
     from ._gradient import Function
+    from ._simulation import Simulation
+
+
+class Source(NamedTuple):
+    """The netlist of a network: its text, or `None` for that of the file `name`."""
+
+    text: str | None
+    name: str
+    parameters: dict[str, Any]
+    files: list[File]
+
+    def read(self, parameters: dict[str, Any]) -> _lptn.Netlist:
+        """Reads it with these parameters."""
+        if self.text is None:
+            return _lptn.Netlist.read(self.name, parameters, self.files)
+        return _lptn.Netlist.parse(self.text, self.name, parameters, self.files)
+
+    def known(self) -> Source:
+        """The same with parameters as the netlist reads them."""
+        return self._replace(parameters=values(self.parameters, lambda: self.read({})))
 
 
 class Network(Questions):
@@ -46,28 +68,62 @@ class Network(Questions):
     def _of_tables(self, tables: Tables) -> Network:
         self._tables: Tables | None = tables
         self._loaded: _lptn.Netlist | None = None
-        self._source: tuple[Any, ...] = ()
+        self._source = Source(None, tables.name, tables.parameters, [])
         self._set = tables.parameters
         return self
 
     @classmethod
-    def _of(cls, netlist: _lptn.Netlist, source: tuple[Any, ...]) -> Network:
+    def _of(cls, source: Source) -> Network:
         network = cls.__new__(cls)
-        network._tables, network._loaded = None, netlist
-        network._source, network._set = source, source[-1]
+        network._tables, network._loaded = None, source.read(source.parameters)
+        network._source, network._set = source, source.parameters
         return network
 
     @classmethod
-    def from_toml(cls, text: str, /, name: str = "netlist.toml", **parameters: Any) -> Network:
-        """The network of a text, to which entries can be added."""
-        own = values(parameters, lambda: _lptn.Netlist.parse(text, name, {}))
-        return cls.__new__(cls)._of_tables(of_text(text, name, own))
+    def from_toml(
+        cls,
+        text: str,
+        /,
+        name: str = "netlist.toml",
+        *,
+        files: Mapping[str, Any] | None = None,
+        **parameters: Any,
+    ) -> Network:
+        """The network of a text, to which entries can be added; `files` as in `lptn.parse`."""
+        memory = memory_files(files)
+        own = values(parameters, lambda: _lptn.Netlist.parse(text, name, {}, memory))
+        return cls.__new__(cls)._of_tables(of_text(text, name, own, memory))
 
     @property
     def _netlist(self) -> _lptn.Netlist:
         return self._loaded if self._loaded is not None else self._entries.netlist
 
-    def _explain(self, of: Error | list[Problem]) -> None:
+    @property
+    def _files(self) -> list[File]:
+        """The files in memory that the netlist names."""
+        return self._source.files if self._tables is None else self._tables.files
+
+    def _with(self, more: str = "", files: list[File] | None = None) -> _lptn.Netlist:
+        """The netlist with more text and other files in memory."""
+        text, name = self.text
+        return _lptn.Netlist.parse(text + more, name, self._set, merged(self._files, files or []))
+
+    def _with_data(self, question: str, study: str | None, data: Any) -> _lptn.Netlist:
+        """The netlist with frames in the place of the records of a study."""
+        section = question.partition(" ")[0]
+        all = [of for of in self._netlist.records() if of[0] == section]
+        found = [of for of in all if study is None or of[1] == study]
+        # without one study, the question has its own error
+        if len(found) != 1:
+            return self._netlist
+        _, name, names = found[0]
+        return self._with(files=records(f"[{section}.{name}]", names, data))
+
+    def _explain(self, of: Error | list[Problem], data: bool = False) -> None:
+        folder, names = os.path.dirname(self._source.name), [name for name, _ in self._files]
+        if data:
+            names += [name for *_, records in self._netlist.records() for name in records]
+        explain_rows(of, (os.path.join(folder, name) for name in names))
         if self._tables is None:
             return
         self._tables.explain(of.errors if isinstance(of, Error) else of)
@@ -133,7 +189,7 @@ class Network(Questions):
     @property
     def file(self) -> str | None:
         """The file; `None` for a text or a network made in code."""
-        return self._source[1] if self._source and self._source[0] == "load" else None
+        return self._source.name if self._tables is None and self._source.text is None else None
 
     @property
     def title(self) -> str:
@@ -169,10 +225,10 @@ class Network(Questions):
         """The text of the netlist, and its name."""
         if self._tables is not None:
             return self._tables.text, self._tables.name
-        if self._source[0] == "parse":
-            return self._source[1], self._source[2]
-        with open(self._source[1], encoding="utf-8") as file:
-            return file.read(), self._source[1]
+        if self._source.text is not None:
+            return self._source.text, self._source.name
+        with open(self._source.name, encoding="utf-8") as file:
+            return file.read(), self._source.name
 
     def sweep(
         self,
@@ -194,7 +250,7 @@ class Network(Questions):
             if name is None or isinstance(name, (str, os.PathLike)):
                 if over is not None or report is not None:
                     raise TypeError("`over` and `report` belong to a frame: a study has its own")
-                return super().sweep(name, **words)
+                return super().sweep(name, **words)._of_frame(None, words)
             return frame_sweep(self, name, over or "steady", report, words)
         except Error as error:
             explain_sweep(self, error, words.get("case"))
@@ -235,6 +291,8 @@ class Network(Questions):
 
     def simulation(self) -> Simulation:
         """A simulation of the network, to be stepped."""
+        from ._simulation import Simulation
+
         return Simulation(self)
 
     def __repr__(self) -> str:
@@ -243,139 +301,63 @@ class Network(Questions):
     def __reduce__(self) -> Any:
         if self._tables is not None:
             return (_of_tables, (self._tables,))
-        return (_again, self._source)
+        return (Network._of, (self._source,))
 
 
-def load(file: str | os.PathLike[str], /, **parameters: Any) -> Network:
+def load(
+    file: str | os.PathLike[str],
+    /,
+    *,
+    files: Mapping[str, Any] | None = None,
+    **parameters: Any,
+) -> Network:
     """Reads a netlist; parameters get these values in every question.
+
+    `files` has frames in the place of CSV files that the netlist names: `{"record.csv": frame}`.
 
     Raises `lptn.Error` with all problems of the netlist.
     """
     name = os.fsdecode(file)
     if "\n" in name:
         raise TypeError("lptn.load reads a file: lptn.parse reads a text")
-    own = values(parameters, lambda: _lptn.Netlist.read(name, {}))
-    return Network._of(_lptn.Netlist.read(name, own), ("load", name, own))
+    return Network._of(Source(None, name, parameters, memory_files(files)).known())
 
 
-def parse(text: str, /, name: str = "netlist.toml", **parameters: Any) -> Network:
-    """Reads a netlist from a text; files that it names are relative to the place of `name`."""
+def parse(
+    text: str,
+    /,
+    name: str = "netlist.toml",
+    *,
+    files: Mapping[str, Any] | None = None,
+    **parameters: Any,
+) -> Network:
+    """Reads a netlist from a text; files that it names are relative to the place of `name`.
+
+    `files` has frames in the place of CSV files that the netlist names: `{"record.csv": frame}`.
+    """
     if not isinstance(text, str):
         raise TypeError(f"a netlist is a text, not {type(text).__name__}: lptn.load reads a file")
-    own = values(parameters, lambda: _lptn.Netlist.parse(text, name, {}))
-    return Network._of(_lptn.Netlist.parse(text, name, own), ("parse", text, name, own))
-
-
-def _again(how: str, text: str, *rest: Any) -> Network:
-    return load(text, **rest[0]) if how == "load" else parse(text, rest[0], **rest[1])
+    return Network._of(Source(text, name, parameters, memory_files(files)).known())
 
 
 def _of_tables(tables: Tables) -> Network:
     return Network.__new__(Network)._of_tables(tables)
 
 
-def asked(question: str, files: list[Any], words: dict[str, Any]) -> Result:
-    """Asks a question that is not about one network."""
-    return answered(_lptn.ask(question, paths(tuple(files)), words), question, words, 3)
+def asked(
+    question: str, files: list[Any], words: dict[str, Any], memory: list[File] | None = None
+) -> Result:
+    """Asks a question that is not about one network; its records may be in memory."""
+    memory, names = memory or [], paths(tuple(files))
+    if question == "compare" and names:
+        words = given(words, lambda: _lptn.Netlist.read(names[0], {}, []), several=True)
 
+    def explain(of: Error | list[Problem]) -> None:
+        explain_rows(of, (name for name, _ in memory))
 
-class Simulation:
-    """A network with its state at a time, stepped by the program: a controller, a cosimulation.
-
-    `sim["steel.T"]` is the present temperature in `sim.temperature_unit`. Threads may share it: one
-    waits for the step of another.
-    """
-
-    def __init__(self, network: Network) -> None:
-        self.network = network
-        self._of = _lptn.Simulation(network._netlist)
-        # a second thread waits until a step has ended
-        self._lock = RLock()
-
-    @property
-    def time(self) -> float:
-        """The time that was reached, in s."""
-        with self._lock:
-            return self._of.time
-
-    @property
-    def temperature_unit(self) -> str:
-        """The unit of temperatures: that of the netlist."""
-        with self._lock:
-            return self._of.temperature_unit
-
-    @property
-    def events(self) -> list[tuple[float, str, str, bool, bool]]:
-        """The events of the last step: time in s, kind, name, state before and after."""
-        with self._lock:
-            return self._of.events
-
-    def __getitem__(self, name: str) -> float:
-        """The temperature of a node or boundary: `sim["steel.T"]`."""
-        node, _, quantity = name.rpartition(".")
-        if node and quantity != "T":
-            raise KeyError(f'{name}: a simulation has temperatures, sim["{node}.T"], and state(..)')
-        return self.temperature(name.removesuffix(".T"))
-
-    def temperature(self, node: str) -> float:
-        """The temperature of a node or boundary, in the unit of temperatures."""
-        with self._lock:
-            return self._of.temperature(node)
-
-    def state(self, name: str) -> float:
-        """The value of a state of `[state]`, in its SI unit."""
-        with self._lock:
-            return self._of.state(name)
-
-    def set(self, **inputs: Any) -> None:
-        """Fixes parameters and signals from now on: `sim.set(P_7000=(220, "W"))`."""
-        for name, value in values(inputs, lambda: self.network._netlist).items():
-            with self._lock:
-                self._of.set(name, value)
-
-    def release(self, *names: str) -> None:
-        """Gives signals their own time histories again, parameters their own values."""
-        for name in names:
-            with self._lock:
-                self._of.release(name)
-
-    def step(self, length: Any) -> None:
-        """Steps by a time such as "10 s"."""
-        with self._lock:
-            self._of.step(length)
-
-    def advance(self, to: Any) -> None:
-        """Steps to a time such as "10 min"."""
-        with self._lock:
-            self._of.advance(to)
-
-    def event_indicators(self) -> dict[str, tuple[float, str]]:
-        """The distance to every event: number and unit, zero at the event."""
-        with self._lock:
-            found = self._of.event_indicators()
-        return {name: (value, unit) for name, value, unit in found}
-
-    def save(self) -> str:
-        """The state, for `restore`."""
-        with self._lock:
-            return self._of.save()
-
-    def restore(self, saved: str) -> None:
-        """Goes to a state that a simulation of the same network saved."""
-        try:
-            with self._lock:
-                self._of.restore(saved)
-        except (TypeError, ValueError):
-            raise ValueError("`restore` takes a text that `save` of a simulation gave") from None
-
-    def __repr__(self) -> str:
-        return f"<lptn.Simulation of {self.network.title} at {self.time:g} s>"
-
-    def __reduce__(self) -> Any:
-        return (_restored, (self.network, self.save()))
-
-
-def _restored(network: Network, saved: str) -> Simulation:
-    simulation = Simulation(network)
-    simulation.restore(saved)
-    return simulation
+    try:
+        answer = _lptn.ask(question, names, words, memory)
+    except Error as error:
+        explain(error)
+        raise
+    return answered(answer, question, words, 3, explain)

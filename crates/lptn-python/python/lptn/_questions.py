@@ -20,6 +20,11 @@ MORE = [
 ]
 
 
+# An option of questions that read records.
+DATA = ("data", "frames in the place of the study's records: one, a list, or by their names")
+RECORDS = ("fit network", "infer")
+
+
 def answered(
     answer: _lptn.Answer,
     question: str,
@@ -43,6 +48,11 @@ def answered(
     return result
 
 
+def more(question: str, sets: bool) -> list[tuple[str, str]]:
+    """Options of a question that the package adds."""
+    return [*([DATA] if question in RECORDS else []), *(MORE if sets else [])]
+
+
 def _none(result: Result) -> Problem:
     """The problem of an answer that does not say its errors: of a sweep without a candidate."""
     codes = result.table["failed"] if "failed" in result else []
@@ -60,6 +70,8 @@ def paths(netlists: tuple[Any, ...]) -> list[str]:
     for netlist in netlists:
         if getattr(netlist, "_set", None):
             raise TypeError("a network with parameters is not a file: name the file, and write set={}")
+        if getattr(netlist, "_files", None):
+            raise TypeError("a network with frames is not a file: its frames are not on the disk")
         file = getattr(netlist, "file", netlist)
         if file is None:
             raise TypeError("a network from a text is not a file: write it into one")
@@ -72,30 +84,45 @@ def _method(name: str, first: str | None, several: bool) -> Any:
 
     def ask(self: Any, *given: Any, **words: Any) -> Result:
         others: list[str] = []
+        call = f"{method_name(name)}()"
         if several:
             if given and self._set:
-                raise TypeError(f"{name}() would set the parameters of {self!r} in every netlist")
+                raise TypeError(f"{call} would set the parameters of {self!r} in every netlist")
+            if self._files:
+                raise TypeError(f"{call} reads files: the frames of {self!r} are not on the disk")
             others = paths(given)
         elif given:
             if first is None or len(given) > 1 or first in words:
-                raise TypeError(f"{name}() takes no such argument without a name")
+                raise TypeError(f"{call} takes no such argument without a name")
             words[first] = given[0]
+        data = words.pop("data", None) if name in RECORDS else None
+        explain = self._explain
+        if data is not None:
+
+            def explain(of: Error | list[Problem]) -> None:
+                self._explain(of, data=True)
+
+        asked = (others, data, explain)
         if "progress" in words:
             with shown(words) as words:
-                answer, words = of(self, others, words)
+                answer, words = of(self, asked, words)
         else:
-            answer, words = of(self, others, words)
+            answer, words = of(self, asked, words)
         about = None if several and given else self
-        return answered(answer, name, words, 2, self._explain, about)
+        return answered(answer, name, words, 2, explain, about)
 
     def of(
-        self: Any, others: list[str], words: dict[str, Any]
+        self: Any, asked: tuple[list[str], Any, Explain], words: dict[str, Any]
     ) -> tuple[_lptn.Answer, dict[str, Any]]:
+        others, data, explain = asked
         try:
             words = given_values(words, lambda: self._netlist, name == "compare")
-            return self._netlist.ask(name, others, words), words
+            netlist = self._netlist
+            if data is not None:
+                netlist = self._with_data(name, words.get("name"), data)
+            return netlist.ask(name, others, words), words
         except Error as error:
-            self._explain(error)
+            explain(error)
             raise
 
     return ask
@@ -107,11 +134,20 @@ class Questions:
     _set: dict[str, Any]
 
     @property
+    def _files(self) -> list[tuple[str, bytes]]:
+        raise NotImplementedError
+
+    @property
     def _netlist(self) -> _lptn.Netlist:
         raise NotImplementedError
 
-    def _explain(self, of: Error | list[Problem]) -> None:
-        """Names the entries of a network made in code that problems are about."""
+    def _with_data(self, question: str, study: str | None, data: Any) -> _lptn.Netlist:
+        raise NotImplementedError
+
+    def _explain(self, of: Error | list[Problem], data: bool = False) -> None:
+        """Names the entries of a network made in code that problems are about, and the rows of
+        frames: those of all records with `data`.
+        """
 
 
 def _declare() -> None:
@@ -120,7 +156,7 @@ def _declare() -> None:
             continue
         lines = [f"{purpose}: `lptn {name}`.", "", "Options:"]
         lines += [f"    {option}: {means}" for option, _, means in options]
-        lines += [f"    {option}: {means}" for option, means in MORE] if sets else []
+        lines += [f"    {option}: {means}" for option, means in more(name, sets)]
         lines += ["", "Other keywords are parameters of the netlist."] if sets else []
         method = _method(name, first, about == "netlists")
         method.__name__ = method_name(name)

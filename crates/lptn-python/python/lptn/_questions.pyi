@@ -14,7 +14,7 @@ from ._result import Explain, Result
 Text = str | os.PathLike[str] | SupportsFloat | tuple[float, str]
 Netlist = str | os.PathLike[str] | Network
 
-MORE: list[tuple[str, str]]
+RECORDS: tuple[str, ...]
 
 def answered(
     answer: _lptn.Answer,
@@ -24,14 +24,18 @@ def answered(
     explain: Explain | None = None,
     network: Any = None,
 ) -> Result: ...
+def more(question: str, sets: bool) -> list[tuple[str, str]]: ...
 def paths(netlists: tuple[Any, ...]) -> list[str]: ...
 def method_name(question: str) -> str: ...
 
 class Questions:
     _set: dict[str, Any]
     @property
+    def _files(self) -> list[tuple[str, bytes]]: ...
+    @property
     def _netlist(self) -> _lptn.Netlist: ...
-    def _explain(self, of: Error | list[Problem]) -> None: ...
+    def _with_data(self, question: str, study: str | None, data: Any) -> _lptn.Netlist: ...
+    def _explain(self, of: Error | list[Problem], data: bool = False) -> None: ...
     def check(
         self,
         *netlists: Netlist,
@@ -120,7 +124,7 @@ class Questions:
         progress: bool | Told = False,
         set: dict[str, Any] | None = None,
         options: dict[str, Any] | None = None,
-        **parameters: Text | Sequence[Text],
+        **parameters: Text | Sequence[Text] | tuple[Sequence[float], str],
     ) -> Result:
         """Compare designs: `lptn compare`."""
     def size(
@@ -168,6 +172,7 @@ class Questions:
         name: Text | None = None,
         *,
         starts: int | None = None,
+        data: Any = None,
         progress: bool | Told = False,
         set: dict[str, Any] | None = None,
         options: dict[str, Any] | None = None,
@@ -186,6 +191,7 @@ class Questions:
         self,
         name: Text | None = None,
         *,
+        data: Any = None,
         progress: bool | Told = False,
         set: dict[str, Any] | None = None,
         options: dict[str, Any] | None = None,

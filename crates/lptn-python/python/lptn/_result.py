@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import html
 import json
-from collections.abc import Callable, Iterator, Sequence
+from array import array
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache, cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -32,9 +33,11 @@ def _module() -> Any:
 class Table:
     """The rows of an answer: columns of numbers with units, and columns of words."""
 
-    def __init__(self, answer: _lptn.Answer | Kept, scalar: bool) -> None:
+    def __init__(self, answer: Rows | Kept | _lptn.Answer, scalar: bool, index: Any = None) -> None:
         self._answer = answer
         self._scalar = scalar
+        # of the frame of pandas that the rows belong to
+        self._index = index
         self._numbers: dict[str, Column] = {}
 
     @cached_property
@@ -122,7 +125,14 @@ class Table:
         return f"{name} [{self.units[name]}]" if name in self.units else name
 
     def __reduce__(self) -> Any:
-        return (Table, (Kept.of(self._answer), self._scalar))
+        answer = self._answer
+        kept = answer if isinstance(answer, Rows) else Kept.of(answer)
+        return (Table, (kept, self._scalar, self._index))
+
+    @property
+    def index(self) -> Any:
+        """The index of the frame of pandas that the rows belong to; `None` if there is none."""
+        return self._index
 
     def __repr__(self) -> str:
         return f"<Table of {len(self)} rows: {', '.join(self.names[:8])}>"
@@ -144,6 +154,24 @@ def _cells(values: Any) -> Iterator[str]:
         yield from values
     else:
         yield from (f"{value:.6g}" for value in values.reshape(-1).tolist())
+
+
+class Rows:
+    """Columns of a table that no answer has: name, unit or `None` for words, cells."""
+
+    def __init__(self, columns: Sequence[tuple[str, str | None, Sequence[Any]]]) -> None:
+        self._cells = {name: (unit, list(cells)) for name, unit, cells in columns}
+
+    def columns(self) -> list[tuple[str, str | None]]:
+        return [(name, unit) for name, (unit, _) in self._cells.items()]
+
+    def numbers(self, name: str) -> tuple[str, bytes] | None:
+        unit, cells = self._cells.get(name, (None, []))
+        return None if unit is None else (unit, array("d", cells).tobytes())
+
+    def words(self, name: str) -> list[str] | None:
+        unit, cells = self._cells.get(name, ("", []))
+        return cells if unit is None else None
 
 
 class Kept:
@@ -192,8 +220,8 @@ class Kept:
         return self._cells.get(name, (None, None))[1]
 
 
-def _again(kept: Kept, question: str, scalar: bool, title: str) -> Result:
-    return Result(kept, question, scalar, title=title)
+def _again(kept: Kept, question: str, scalar: bool, title: str, index: Any) -> Result:
+    return Result(kept, question, scalar, title=title)._of_frame(index)
 
 
 class Result:
@@ -220,6 +248,13 @@ class Result:
         """The question: `run`, `fit network`."""
         # a network is asked for its title when it is needed
         self._titled: Any = title or question
+        self._index: Any = None
+        self._case: Any = None
+
+    def _of_frame(self, index: Any, words: Mapping[str, Any] | None = None) -> Result:
+        """The same of these words, whose rows have the index of the frame of candidates."""
+        self._index, self._case = index, (words or {}).get("case")
+        return self
 
     @property
     def title(self) -> str:
@@ -245,15 +280,30 @@ class Result:
     def table(self) -> Table:
         """The rows."""
         if self._table is None:
-            self._table = Table(self._answer, self._scalar)
+            self._table = Table(self._answer, self._scalar, self._index)
         return self._table
 
     def __getitem__(self, name: str) -> Column | Any:
-        """A column; a list of texts if its cells are words."""
+        """A column; a list of texts if its cells are words.
+
+        A run with `uncertainty` has for a node `steel.T`, the standard deviation `steel.T.sd` and
+        the band of 95 %, `steel.T.low` and `steel.T.high`.
+        """
+        if name not in self.table:
+            found = self._certain.get(name)
+            if found is not None:
+                return found
         return self.table[name]
 
+    @cached_property
+    def _certain(self) -> dict[str, Column]:
+        """The columns without a band of a run with `uncertainty`, which its rows leave out."""
+        if self.question != "run" or "uncertainty" not in self.data:
+            return {}
+        return _module().of_json(self.data["columns"], self.data["rows"])
+
     def __contains__(self, name: object) -> bool:
-        return name in self.table
+        return name in self.table or name in self._certain
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.table)
@@ -277,6 +327,39 @@ class Result:
     def to_xarray(self) -> Any:
         """The rows as an xarray Dataset over time; variables have the attribute `units`."""
         return self.table.to_xarray(self.title)
+
+    @property
+    def ledger(self) -> Table:
+        """The energy balance of a run: heat of sources, boundaries, streams and masses into the
+        network, heat stored in nodes, and the residual, each with its name.
+        """
+        from ._heats import ledger
+
+        if "ledger" not in self.data:
+            raise TypeError(f"`{self.question}` has no energy balance: a run has one")
+        return ledger(self.data["ledger"])
+
+    @property
+    def balance(self) -> Table:
+        """The heat balance of the node or boundary that was asked for, `net.run(balance="steel")`:
+        power and heat of each of its paths and sources, positive into it.
+        """
+        from ._heats import balance
+
+        if "balance" not in self.data:
+            raise TypeError(
+                'no balance was asked for: run(balance="steel") has that of a node, and run.ledger '
+                "the energy balance of a run"
+            )
+        return balance(self.data["balance"])
+
+    @property
+    def failures(self) -> dict[int, Problem]:
+        """The problem of each candidate of a sweep that failed, by its number, `case`."""
+        from ._frame import failures
+
+        network = None if isinstance(self._titled, str) else self._titled
+        return failures(network, self)
 
     @property
     def limits(self) -> dict[str, Any]:
@@ -306,38 +389,19 @@ class Result:
         """The picture that `--plot` draws; `None` if there is none."""
         return self._answer.svg()
 
-    def plot(self, *names: str, ax: Any = None, **words: Any) -> Any:
-        """Draws columns, or all temperatures, and their limits with matplotlib: in `ax` or in a new
-        figure.
+    def plot(self, *names: str, ax: Any = None, title: str | None = None, **words: Any) -> Any:
+        """Draws columns, or all temperatures, with their limits and bands, by matplotlib.
+
+        They are in `ax` or in a new figure, which has a panel for each unit and the title of the
+        network. Gives the axes; an array of them for several panels.
         """
-        if self._scalar:
-            raise TypeError("a steady state has no curves: svg() draws it, and table has its numbers")
-        if ax is None:
-            from ._frames import needed
+        from ._plot import drawn
 
-            ax = needed("matplotlib.pyplot", "plot()").subplots()[1]
-        names = names or tuple(name for name in self.table.units if name.endswith(".T"))
-        for name in names:
-            ax = self[name].plot(ax=ax, **words)
-        for text, value in self._bounds(names):
-            ax.axhline(value, linestyle="--", color="black", linewidth=1, label=text)
-            ax.legend()
-        return ax
-
-    def _bounds(self, names: Sequence[str]) -> Iterator[tuple[str, float]]:
-        """The constant bounds of the limits of these columns, in their units."""
-        # a sweep counts its candidates
-        judged = ((name, of) for name, of in self.limits.items() if isinstance(of, dict))
-        for name, limit in judged:
-            for side in ("below", "above"):
-                bound = limit.get(side)
-                if limit.get("of") in names and isinstance(bound, dict):
-                    value, unit = bound.get("value"), bound.get("unit")
-                    if value is not None and unit == self.table.units[limit["of"]]:
-                        yield f"{name}: {side} {value:g} {unit}", value
+        return drawn(self, names, ax, title, words)
 
     def __reduce__(self) -> Any:
-        return (_again, (Kept.of(self._answer), self.question, self._scalar, self.title))
+        kept = Kept.of(self._answer)
+        return (_again, (kept, self.question, self._scalar, self.title, self._index))
 
     def __str__(self) -> str:
         return self._answer.text()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache
 from typing import Any
@@ -57,9 +58,16 @@ def values(words: Mapping[str, Any], read: Read, several: bool = False) -> dict[
     def one(name: str, word: Any) -> Any:
         pair = isinstance(word, tuple) and len(word) == 2 and isinstance(word[1], str)
         number, unit = word if pair else (word, getattr(word, "unit", None))
+        if hasattr(word, "columns"):
+            raise TypeError(
+                f"`{name}` takes no frame: `data` of fit and infer takes one, `files` of lptn.load, "
+                "and net.sweep(frame)"
+            )
         many = isinstance(number, (list, tuple)) or getattr(number, "ndim", 0) > 0
-        if many and not (several and isinstance(word, list)) and name in _parameters(read()):
-            raise TypeError(f"`{name}` takes one value: net.sweep({{{name!r}: [..]}}) solves many")
+        if many and name in _parameters(read()):
+            if not several:
+                raise TypeError(f"`{name}` takes one value: net.sweep({{{name!r}: [..]}}) solves many")
+            return [one(name, part) for part in _variants(name, number, (unit, read))]
         kelvin = _kelvin(unit) if isinstance(unit, str) else None
         if many or kelvin is None:
             return [one(name, part) for part in word] if several and many else word
@@ -68,6 +76,21 @@ def values(words: Mapping[str, Any], read: Read, several: bool = False) -> dict[
         return f"{float(number) * kelvin - _lptn.unit('degC')[1]!r} degC"
 
     return {name: word if _is_ready(word) else one(name, word) for name, word in words.items()}
+
+
+def _variants(name: str, given: Any, of: tuple[Any, Read]) -> list[Any]:
+    """Several values of a parameter, each with the unit of all."""
+    unit, read = of
+    parts = given.tolist() if hasattr(given, "tolist") else list(given)
+    if isinstance(unit, str):
+        return [(part, unit) for part in parts]
+    own = _parameters(read())[name][1]
+    if own and any(type(part) in _NUMBERS for part in parts):
+        texts = [part if isinstance(part, str) else f"{part} {own}" for part in parts]
+        plain = all(type(part) in _NUMBERS for part in parts)
+        right = f'({parts}, "{own}")' if plain else json.dumps(texts, ensure_ascii=False)
+        raise TypeError(f"`{name}` takes values with their unit: {name}={right}")
+    return parts
 
 
 def _is_ready(word: Any) -> bool:

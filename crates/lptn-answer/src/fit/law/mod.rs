@@ -21,6 +21,7 @@ use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::input::{positive, wrong_unit};
 use crate::listener::Listener;
+use crate::memory_files::MemoryFiles;
 use points::Data;
 
 pub use laws::{StatedLawsAnswer, StatedLawsQuestion};
@@ -56,6 +57,8 @@ pub struct FitLawQuestion {
     pub sensor: Option<String>,
     /// Statements about the form of the files, where their contents do not show it.
     pub csv: CsvOptions,
+    /// Files that are not on the disk.
+    pub files: MemoryFiles,
     /// The words of the command that asked, for reports; empty if a program asked.
     pub command: Vec<String>,
 }

@@ -153,7 +153,7 @@ impl<'a> Lookup<'a> {
 }
 
 pub(super) fn read(path: &Path, question: &FitLawQuestion) -> Result<Data, Failure> {
-    let bytes = lptn_netlist::read_bytes(path)?;
+    let bytes = question.files.bytes(path)?;
     let (sheet, files) = read_sheet(path, &bytes, &question.csv)?;
     let lookup = Lookup { sheet: &sheet, files: &files };
     let speed = lookup.needed(

@@ -17,6 +17,7 @@ use crate::answer::Answer;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::listener::Listener;
+use crate::memory_files::MemoryFiles;
 use model::Model;
 pub(crate) use request::units_missing;
 use request::{Reference, Request};
@@ -51,6 +52,8 @@ pub struct FitStepQuestion {
     pub posterior: bool,
     /// The unit of temperatures; `None` for degC.
     pub temperature_unit: Option<String>,
+    /// Files that are not on the disk.
+    pub files: MemoryFiles,
     /// The words of the command that asked, for reports; empty if a program asked.
     pub command: Vec<String>,
 }

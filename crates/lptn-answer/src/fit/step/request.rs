@@ -56,7 +56,7 @@ impl Request {
             positive("--capacity", &question.capacity, Dimension::CAPACITY, "\"2659 J/K ± 5 %\"")?;
         let sensor = positive("--sensor", &question.sensor, Dimension::TEMPERATURE, "\"3 K\"")?;
         let unit = temperature_unit(question.temperature_unit.as_deref())?;
-        let text = input::read(record)?;
+        let text = question.files.given(record)?;
         let (record, files) = read_record(Path::new(&text.name), &text.bytes, &query(question)?)?;
         let begin = match question.from {
             Some(_) => begin(question, Path::new(&text.name), &text.bytes)?,

@@ -17,6 +17,7 @@ use crate::failure::{Failure, told};
 use crate::fit::step::units_missing;
 use crate::input;
 use crate::listener::Listener;
+use crate::memory_files::MemoryFiles;
 
 /// Asks which exponentials a step response is the sum of.
 #[derive(Clone, Debug, Default)]
@@ -37,6 +38,8 @@ pub struct FitTermsQuestion {
     pub power: Option<String>,
     /// The number of terms; `None` for that of the least AICc.
     pub terms: Option<usize>,
+    /// Files that are not on the disk.
+    pub files: MemoryFiles,
     /// The words of the command that asked, for reports; empty if a program asked.
     pub command: Vec<String>,
 }
@@ -76,7 +79,7 @@ impl FitTermsQuestion {
         let what = (Dimension::POWER, "fit::not_positive", "\"1 W\"");
         let power = self.power.as_deref().map(|text| input::positive("--power", text, what));
         let power = power.transpose()?.map(|power| power.value);
-        let text = input::read(record)?;
+        let text = self.files.given(record)?;
         let (record, files) = read_record(Path::new(&text.name), &text.bytes, &self.query()?)?;
         listener.warn(&files, &record.warnings);
         let column = self.chosen(&record, &files)?;

@@ -11,7 +11,7 @@ use lptn_units::{Dimension, Type, parse_quantity};
 use super::super::shown::SpeedUnit;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::folder::of_folder;
+use crate::memory_files::MemoryFiles;
 
 /// The sheet that gives the speeds of records.
 const RUNS: &str = "runs.csv";
@@ -33,8 +33,11 @@ struct Speeds {
     unit: Option<SpeedUnit>,
 }
 
-pub(super) fn read(folder: &Path, csv: &CsvOptions) -> Result<Folder, Failure> {
-    let paths = records(folder)?;
+pub(super) fn read(
+    folder: &Path,
+    (csv, files): (&CsvOptions, &MemoryFiles),
+) -> Result<Folder, Failure> {
+    let paths = records(folder, files)?;
     let mut found = Folder {
         runs: Vec::new(),
         unit: SpeedUnit::rpm(),
@@ -42,20 +45,20 @@ pub(super) fn read(folder: &Path, csv: &CsvOptions) -> Result<Folder, Failure> {
         warnings: Vec::new(),
     };
     let sheet = folder.join(RUNS);
-    let speeds = if sheet.is_file() {
-        listed((&sheet, csv), &paths, &mut found)?
+    let speeds = if files.has(&sheet) {
+        listed((&sheet, files.bytes(&sheet)?, csv), &paths, &mut found)?
     } else {
         Speeds { by_file: Vec::new(), unit: None }
     };
     for path in paths {
-        let bytes = lptn_netlist::read_bytes(&path)?;
+        let bytes = files.bytes(&path)?;
         found.inputs.push(hash(&path, &bytes));
-        let (record, files) = read_record(
+        let (record, texts) = read_record(
             &path,
             &bytes,
             &RecordQuery { csv: csv.clone(), ..RecordQuery::default() },
         )?;
-        let speed = speed(&path, (&record, &files), &speeds)?;
+        let speed = speed(&path, (&record, &texts), &speeds)?;
         let temperatures =
             record.temperatures().map(|column| (column.name.clone(), column.values.clone()));
         found.runs.push(Run {
@@ -65,7 +68,7 @@ pub(super) fn read(folder: &Path, csv: &CsvOptions) -> Result<Folder, Failure> {
             times: record.time.clone(),
         });
         if !record.warnings.is_empty() {
-            found.warnings.push((files, record.warnings));
+            found.warnings.push((texts, record.warnings));
         }
     }
     if let Some(unit) = speeds.unit {
@@ -84,8 +87,8 @@ fn file_name(path: &Path) -> String {
 }
 
 /// The CSV files of the folder but the sheet of speeds, by name.
-fn records(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let mut paths = of_folder(folder, "csv", None)?;
+fn records(folder: &Path, files: &MemoryFiles) -> Result<Vec<PathBuf>, Failure> {
+    let mut paths = files.of_folder(folder, "csv")?;
     paths.retain(|path| file_name(path) != RUNS);
     if paths.is_empty() {
         let message = format!("{} contains no records: no file ends with .csv", folder.display());
@@ -96,11 +99,10 @@ fn records(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 
 /// The speeds of `runs.csv`: a column of file names, and one of speeds.
 fn listed(
-    (path, csv): (&Path, &CsvOptions),
+    (path, bytes, csv): (&Path, Vec<u8>, &CsvOptions),
     records: &[PathBuf],
     found: &mut Folder,
 ) -> Result<Speeds, Failure> {
-    let bytes = lptn_netlist::read_bytes(path)?;
     found.inputs.push(hash(path, &bytes));
     let (sheet, files) = read_sheet(path, &bytes, csv)?;
     found.warnings.extend(sheet.note.clone().map(|note| (files.clone(), vec![note])));

@@ -82,7 +82,7 @@ impl FitOfRuns {
     /// Problems of a record, of its speed, or of the question.
     pub fn compute(self, listener: &dyn Listener) -> Result<FitRunsAnswer, Failure> {
         let Self { question, folder: path, capacity } = self;
-        let folder = folder::read(&path, &question.csv)?;
+        let folder = folder::read(&path, (&question.csv, &question.files))?;
         let mut doubts = Gathered::default();
         for (files, warnings) in &folder.warnings {
             listener.warn(files, warnings);

@@ -9,6 +9,7 @@ use std::time::Instant;
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::fit::law::{FitLawAnswer, FitLawQuestion, StatedLawsQuestion};
+use lptn_answer::memory_files::MemoryFiles;
 use lptn_report::{Format, WIDTH, duration, labelled, words};
 
 pub(crate) use args::LawArgs;
@@ -81,6 +82,7 @@ fn question(args: &LawArgs) -> Result<FitLawQuestion, Failure> {
         reference: Some(args.records.reference.clone()),
         sensor: args.records.sensor.clone(),
         csv: args.csv.options()?,
+        files: MemoryFiles::default(),
         command: arguments::words(),
     })
 }

@@ -7,6 +7,7 @@ use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::fit::step::FitStepQuestion;
 use lptn_answer::fit::terms::FitTermsQuestion;
+use lptn_answer::memory_files::MemoryFiles;
 
 pub(crate) use args::StepArgs;
 
@@ -32,6 +33,7 @@ pub(crate) fn step(args: &StepArgs, console: &Console) -> Result<Exit, Failure> 
         port: args.port.clone(),
         posterior: args.posterior.is_some(),
         temperature_unit: args.scale.temperature_unit.clone(),
+        files: MemoryFiles::default(),
         command: arguments::words(),
     };
     let answer = question.ask(&args.record, console)?;
@@ -69,6 +71,7 @@ fn terms(args: &StepArgs, count: &str, console: &Console) -> Result<Exit, Failur
         csv: args.form.options()?,
         power: args.power.clone(),
         terms: number,
+        files: MemoryFiles::default(),
         command: arguments::words(),
     };
     let answer = question.ask(&args.record, console)?;
