@@ -195,11 +195,12 @@ fn the_end_of_a_rod_is_a_face() {
 /// time are named. From 400 s on every node has one.
 #[test]
 fn a_node_that_begins_at_a_later_reading_is_named() {
-    let text = "format = 1\n[param]\nR = '0.3 K/W'\n[node]\na = { C = '2 kJ/K', T0 = '20 degC' }\nb \
-                = { C = '2 kJ/K', T0 = '20 degC' }\n[boundary]\nroom = { T = '20 degC' \
-                }\n[resistor]\nra = { from = 'a', to = 'room', R = 'R' }\nrb = { from = 'b', to = \
-                'room', R = 'R' }\n[fit.cooling]\ndata = 'r.csv'\ncolumn = { a = 'a.T', b = 'b.T' \
-                }\nvary = ['R']\ninitial = 'record'\n";
+    let text = "format = 1\n[param]\nR = '0.3 K/W'\n[node]\n\
+        a = { C = '2 kJ/K', T0 = '20 degC' }\nb = { C = '2 kJ/K', T0 = '20 degC' }\n\
+        [boundary]\nroom = { T = '20 degC' }\n[resistor]\n\
+        ra = { from = 'a', to = 'room', R = 'R' }\nrb = { from = 'b', to = 'room', R = 'R' }\n\
+        [fit.cooling]\ndata = 'r.csv'\ncolumn = { a = 'a.T', b = 'b.T' }\nvary = ['R']\n\
+        initial = 'record'\n";
     let folder = Folder::with("x.toml", text);
     let row = |from: f64, t: f64| {
         let left = f64::exp(-t / 800.0);

@@ -31,7 +31,8 @@ fn record(from: f64, known: f64) -> String {
 fn netlist(csv: &str, (start, initial): (&str, &str)) -> Netlist {
     let text = format!(
         "format = 1\n[param]\nR = \"0.3 K/W\"\nP = \"80 W\"\n\
-         [node]\na = {{ C = \"2 kJ/K\", T0 = \"35 degC\" }}\nb = {{ C = \"2 kJ/K\", T0 = \"20 degC\" }}\n\
+         [node]\na = {{ C = \"2 kJ/K\", T0 = \"35 degC\" }}\n\
+         b = {{ C = \"2 kJ/K\", T0 = \"20 degC\" }}\n\
          [boundary]\nroom = {{ T = \"20 degC\" }}\n\
          [resistor]\nra = {{ from = \"a\", to = \"room\", R = \"R\" }}\n\
          rb = {{ from = \"b\", to = \"room\", R = \"R\" }}\n\
@@ -56,7 +57,7 @@ fn finds_the_truth(from: f64, begun: (&str, &str)) {
     assert!((r / R - 1.0).abs() < 1e-6 && (p / P - 1.0).abs() < 1e-6, "{from} {begun:?}: {r} {p}");
 }
 
-/// The record may begin with the run, one row later or long after it, and `start` may say so or not.
+/// The record may begin with the run, one row later or long after it; `start` may say so or not.
 #[test]
 fn analytic_a_reading_is_the_temperature_of_its_own_time() {
     for from in [0.0, 10.0, 300.0, 900.0] {

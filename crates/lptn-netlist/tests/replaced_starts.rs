@@ -49,7 +49,8 @@ fn a_value_that_a_state_replaces_is_doubted_where_it_is_set() {
 fn a_study_of_a_value_that_a_state_replaces_is_doubted() {
     let sweep = "[sweep.s]\nmethod = \"list\"\nover = \"run\"\nreport = { m = \"max(a.T)\" }\n\
                  axes = { T_a = [\"0 degC\", \"40 degC\"] }";
-    let size = "[size.z]\nmaximise = \"T_b\"\nvary = { T_b = { from = \"0 degC\", to = \"90 degC\" } }\n\
+    let size = "[size.z]\nmaximise = \"T_b\"\n\
+                vary = { T_b = { from = \"0 degC\", to = \"90 degC\" } }\n\
                 require = [\"a.T <= 60 [degC]\"]\nover = \"run\"";
     let doubts = |initial: &str, study: &str| {
         let netlist = netlist(initial, study).unwrap();

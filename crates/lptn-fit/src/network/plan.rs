@@ -18,9 +18,9 @@ const BASE: f64 = 256.0;
 const RAISED: f64 = 64.0;
 
 impl NetworkFitTask {
-    /// The task of a study: each record is a run of the network, and the times of its rows are times
-    /// of that run. It begins at `[run] start` (0 s without one), or at the first row if nodes begin
-    /// at their readings: nothing is known of them before it.
+    /// The task of a study: each record is a run of the network, and the times of its rows are
+    /// times of that run. It begins at `[run] start` (0 s without one), or at the first row if
+    /// nodes begin at their readings: nothing is known of them before it.
     ///
     /// # Errors
     /// [`NetworkFitError`] for a column that measures no quantity of a run, for columns whose units
@@ -49,10 +49,8 @@ impl NetworkFitTask {
         let mut runs = Vec::with_capacity(study.records.len());
         for (record, parameters) in study.records.iter().zip(plan.parameters) {
             let column = |(i, observed): (usize, &Observed)| {
-                let values = record
-                    .record
-                    .column(&observed.column)
-                    .map_or_else(Vec::new, |c| c.values.clone());
+                let values = record.record.column(&observed.column);
+                let values = values.map_or_else(Vec::new, |c| c.values.clone());
                 MeasuredColumn {
                     name: observed.column.clone(),
                     of: of[i].clone(),

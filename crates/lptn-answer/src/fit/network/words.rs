@@ -107,7 +107,7 @@ fn late_starts(answer: &FitNetworkAnswer) -> impl Iterator<Item = Diagnostic> {
     starts.map(|(run, start)| {
         let [begin, read_at] = [run.settings.start(), start.read_at].map(|t| significant(t, 6));
         let message = format!(
-            "{}: `{}` begins at {begin} s with a reading of {read_at} s, the first one of its column",
+            "{}: `{}` begins at {begin} s with a reading of {read_at} s, the first of its column",
             run.name,
             answer.task.network.place_name(start.node)
         );
