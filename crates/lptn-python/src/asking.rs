@@ -8,7 +8,7 @@ use pyo3::types::PyDict;
 
 use crate::answer::Answer;
 use crate::declaration::{About, Declaration};
-use crate::netlist::Files;
+use crate::memory::Files;
 use crate::subject::Asked;
 use crate::trouble::{Trouble, raised};
 use crate::verbs::{VERBS, Verb, named};

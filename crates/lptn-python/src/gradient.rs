@@ -41,7 +41,7 @@ fn limit(asked: &SweepAsked, name: &str) -> PyResult<(LimitId, Unit)> {
     Ok((id, Unit { text: ty.dimension.si_unit(), scale: 1.0, offset: 0.0, ty }))
 }
 
-/// Computes while Python is told the progress and may interrupt.
+/// Computes while Python hears the progress and may interrupt.
 fn heard<T: Send, E: Problem>(
     py: Python<'_>,
     work: impl FnOnce(&dyn Fn(Progress) -> Proceed) -> Result<T, E> + Send,

@@ -10,6 +10,7 @@ mod answer;
 mod asking;
 mod declaration;
 mod gradient;
+mod memory;
 mod netlist;
 mod program;
 mod questions;
@@ -31,7 +32,9 @@ mod module {
     #[pymodule_export]
     use super::gradient::Gradient;
     #[pymodule_export]
-    use super::netlist::{Netlist, csv, quantity_text, unit};
+    use super::memory::csv;
+    #[pymodule_export]
+    use super::netlist::{Netlist, quantity_text, unit};
     #[pymodule_export]
     use super::program::program;
     #[pymodule_export]

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use lptn::{Belief, Input, Listener, Loaded};
 
-use crate::netlist::Files;
+use crate::memory::Files;
 use crate::trouble::Trouble;
 use crate::words::Words;
 
