@@ -437,3 +437,35 @@ connect = { source = "hot" }
 fn the_exact_solution_knows_no_pipes() {
     assert!(ExactSolution::solve(&network(TANK), 0.0, &[0.0, 60.0]).is_err());
 }
+
+/// A flow of a loop that reads a temperature after the fluid has come round takes few steps.
+#[test]
+fn a_flow_that_reads_temperatures_takes_few_steps() {
+    let text = r#"
+format = 1
+[boundary]
+air = { T = "20 degC" }
+[node]
+hot = { C = "600 J/K", T0 = "48 degC" }
+cold = { C = "120 J/K", T0 = "15 degC" }
+[resistor]
+loss = { from = "cold", to = "air", G = "7 W/K" }
+[value]
+mcp = "10 [W/K] * (1 + 0.5 * sin(2 * pi * t / 57 [s])) * exp(0.007 [1/K] * (cold.T - 20 [degC]))"
+[pipe]
+line = { from = "hot", to = "cold", mcp = "mcp", C = "128 J/K", T0 = "66 degC" }
+[advection]
+back = { from = "cold", to = "hot", mcp = "mcp" }
+[source]
+heat = { into = "hot", P = "46 W" }
+"#;
+    let network = network(text);
+    let system = ThermalSystem::assemble(&network).unwrap();
+    let mut steps = 0;
+    let solution = until(&[0.0, 13.0], 1e-5).solve_observed(&system, &mut |_| {
+        steps += 1;
+        Proceed::Continue
+    });
+    solution.unwrap();
+    assert!(steps < 2000, "{steps} steps");
+}

@@ -4,7 +4,7 @@
 //! it does not go straight on while temperatures do, and flows rise with pressure differences.
 
 use lptn_assembly::ThermalSystem;
-use lptn_network::{Evaluation, Network, Reader};
+use lptn_network::{Evaluation, Network, Pipe, Reader};
 
 /// Range of the search for turns to both sides of a temperature, in K, and as a share of it if it
 /// is far from usual temperatures.
@@ -34,6 +34,8 @@ pub(super) struct Turns {
     families: Vec<Family>,
     /// All others.
     several: Vec<Reader>,
+    /// The vertices that count the fluid that has passed pipes.
+    counters: Vec<usize>,
     /// True if a step as long as the one before would have passed a turn whole.
     narrow: bool,
 }
@@ -66,8 +68,12 @@ impl Turns {
             single: Vec::new(),
             families: Vec::new(),
             several: Vec::new(),
+            counters: Vec::new(),
             narrow: false,
         };
+        let states = system.network().states();
+        let counter = |pipe: &Pipe| states[pipe.passed.index()].node.index();
+        turns.counters = system.network().pipes().iter().map(counter).collect();
         let mut known = std::collections::BTreeMap::new();
         let balanced = |vertex: usize| {
             system.network().states().iter().any(|s| s.balanced && s.node.index() == vertex)
@@ -121,7 +127,9 @@ impl Turns {
     }
 
     fn of_several(&mut self, Course { now, rates, last }: Course<'_>, scope: &Evaluation) -> f64 {
-        let fastest = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+        let counts = |vertex: usize| !self.counters.contains(&vertex);
+        let rate = |(vertex, rate): (usize, &f64)| if counts(vertex) { rate.abs() } else { 0.0 };
+        let fastest = rates.iter().enumerate().map(rate).fold(0.0, f64::max);
         let way = if last > 0.0 { LONGER * last } else { FIRST / fastest };
         if !way.is_finite() || way * fastest < STILL {
             return if last > 0.0 { way.max(STILL / fastest) } else { f64::INFINITY };
@@ -129,7 +137,10 @@ impl Turns {
         let far = FURTHER * way;
         let ahead: Vec<f64> = now.iter().zip(rates).map(|(now, rate)| now + far * rate).collect();
         let least = NARROWEST / (far * fastest);
-        let mut longest = way;
+        // the integrator chooses a step at the end of the one before, within what is left of its
+        // stop: a stop at twice the last step does not let it grow
+        let grows = last > 0.0 && !self.counters.is_empty();
+        let mut longest = if grows { far } else { way };
         for reader in &self.several {
             let turns = self.network.turns(reader, scope, [now, &ahead], least);
             if let Some([from, to]) = turns.first() {
