@@ -196,7 +196,8 @@ impl Content {
         }
         let forward = end > start;
         let way = if forward { 0.0 } else { self.size };
-        let marks = passed.map(|passed| passed - way);
+        let mut marks = passed.map(|passed| passed - way);
+        self.follow_on(&mut marks[0], forward);
         let (from, to) = (marks[0].min(marks[POINTS - 1]), marks[0].max(marks[POINTS - 1]));
         let piece = Piece { from, to, marks, temperatures };
         let edge = self.edge(&piece, forward, (apart, fresh));
@@ -211,6 +212,18 @@ impl Content {
             }
         }
         self.drop_the_rest();
+    }
+
+    /// Moves the first mark of a piece to the end of the one before it: the interpolation at the start
+    /// of a step is off by a rounding, and fluid before a jump would be that behind it.
+    fn follow_on(&self, mark: &mut f64, forward: bool) {
+        let end = match forward {
+            true => self.pieces.back().map(|piece| piece.to),
+            false => self.pieces.front().map(|piece| piece.from),
+        };
+        if let Some(end) = end.filter(|end| (end - *mark).abs() <= self.same()) {
+            *mark = end;
+        }
     }
 
     /// The edge between the fluid at the end that a piece enters and that piece.

@@ -1,7 +1,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use super::{Content, Entering};
-use crate::interval::NODES;
+use super::{Content, Entering, Leaving};
+use crate::interval::{NODES, POINTS};
 
 /// Fluid that enters while the amount passed goes from one value to another, its temperature a
 /// function of that amount.
@@ -56,5 +56,18 @@ fn a_flow_that_is_not_even_does_not_move_marks() {
     content.enter(Entering { passed, temperatures: passed.map(f64::cbrt) }, (1e-6, true));
     for mark in [0.001, 0.1, 0.343, 0.7, 0.99] {
         near(content.leaving(1.0 + mark, false), mark.cbrt());
+    }
+}
+
+/// A step that begins a rounding behind the content: fluid before the jump leaves up to it.
+#[test]
+fn a_jump_is_at_the_end_of_the_fluid_before_it() {
+    for rounding in [-1e-13, 0.0, 1e-13] {
+        let mut content = Content::new(2.0, 300.0, 340.0);
+        let mut passed = NODES.map(|x| 300.5 + 0.5 * x);
+        passed[0] += rounding;
+        content.enter(Entering { passed, temperatures: [300.0; POINTS] }, (1e-7, true));
+        assert_eq!(content.leaving(302.0 + 1e-9, false), Some(340.0));
+        assert_eq!(content.next_edge(false), Some(Leaving { passed: 302.0, jumps: true }));
     }
 }
