@@ -206,7 +206,7 @@ fn a_node_that_begins_at_a_later_reading_is_named() {
         let left = f64::exp(-t / 800.0);
         let b = if t < 400.0 { String::new() } else { (20.0 + 70.0 * left).to_string() };
         let late = t >= from;
-        late.then(|| format!("{t},{},{b}\n", 20.0 + 50.0 * left)).unwrap_or_default()
+        if late { format!("{t},{},{b}\n", 20.0 + 50.0 * left) } else { String::new() }
     };
     let write = |from: f64| {
         let rows: String = (0..200).map(|k| row(from, 10.0 * f64::from(k))).collect();
