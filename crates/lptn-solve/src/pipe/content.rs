@@ -151,11 +151,11 @@ impl Content {
         let piece = match edge.map(|edge| edge.mark) {
             Some(jump) if reversed && mark <= jump => {
                 let behind = self.pieces.iter().find(|piece| piece.to > jump)?;
-                return Some(behind.at(jump));
+                return Some(behind.at(jump.max(behind.from)));
             }
             Some(jump) if !reversed && mark >= jump => {
-                let before = self.pieces.iter().find(|piece| piece.to >= jump)?;
-                return Some(before.at(jump));
+                let before = self.pieces.iter().rev().find(|piece| piece.from < jump)?;
+                return Some(before.at(jump.min(before.to)));
             }
             // an end may be off by a rounding; fluid that entered in a step and comes back in it is
             // that at the end, and the step is cut where the flow turns
@@ -190,11 +190,14 @@ impl Content {
         let Entering { passed, temperatures } = fluid;
         let [start, end] = [passed[0], passed[POINTS - 1]];
         self.passed = end;
+        let forward = end > start;
         // pieces of no width would make no difference
         if (end - start).abs() <= f64::EPSILON * (self.size + end.abs()) {
+            if forward || end < start {
+                self.drop_the_rest(forward);
+            }
             return;
         }
-        let forward = end > start;
         let way = if forward { 0.0 } else { self.size };
         let mut marks = passed.map(|passed| passed - way);
         self.follow_on(&mut marks[0], forward);
@@ -211,7 +214,7 @@ impl Content {
                 self.pieces.push_front(piece);
             }
         }
-        self.drop_the_rest();
+        self.drop_the_rest(forward);
     }
 
     /// Moves the first mark of a piece to the end of the one before it: the interpolation at the start
@@ -242,12 +245,21 @@ impl Content {
         (fresh && bends).then_some(Edge { mark, jumps: false })
     }
 
-    /// Forgets the fluid that is no longer in the pipe.
-    fn drop_the_rest(&mut self) {
+    /// Forgets the fluid that has left the pipe. That at the other end has just entered, however little
+    /// it is.
+    fn drop_the_rest(&mut self, forward: bool) {
         // an edge that has come has left, whatever the rounding
         let (outlet, inlet, same) = (self.passed - self.size, self.passed, 2.0 * self.same());
-        self.pieces.retain(|piece| piece.to > outlet + same && piece.from < inlet - same);
-        self.edges.retain(|edge| edge.mark > outlet + same && edge.mark < inlet - same);
+        match forward {
+            true => {
+                self.pieces.retain(|piece| piece.to > outlet + same);
+                self.edges.retain(|edge| edge.mark > outlet + same);
+            }
+            false => {
+                self.pieces.retain(|piece| piece.from < inlet - same);
+                self.edges.retain(|edge| edge.mark < inlet - same);
+            }
+        }
         if let Some(first) = self.pieces.front_mut() {
             first.from = first.from.max(outlet);
         }

@@ -71,3 +71,26 @@ fn a_jump_is_at_the_end_of_the_fluid_before_it() {
         assert_eq!(content.next_edge(false), Some(Leaving { passed: 302.0, jumps: true }));
     }
 }
+
+/// The first step of a run may be so short that the fluid of it is thinner than marks that are the
+/// same: it stays in the pipe, and the fluid before it leaves up to the jump, whichever way it flows.
+#[test]
+fn a_first_step_of_almost_no_fluid_keeps_the_jump() {
+    for thin in [1e-13, 0.5e-10, 0.95e-10, 1.05e-10, 1.5e-10, 1.9e-10, 2.1e-10, 1e-9] {
+        for sign in [1.0, -1.0] {
+            let (size, reversed) = (10.0, sign < 0.0);
+            let mut content = Content::new(size, 0.0, 340.0);
+            for (from, to) in [(0.0, thin), (thin, 4.0), (4.0, 9.0)] {
+                content.enter(fluid(sign * from, sign * to, |_| 300.0), (1e-7, true));
+            }
+            let edge = content.next_edge(reversed).unwrap();
+            assert!((edge.passed - sign * size).abs() < 1e-12, "{thin}: {edge:?}");
+            for behind in [-1.0, -1e-9, 0.0, 0.5e-10, 1e-9, 1.0] {
+                let leaving = content.leaving(sign * (size + behind), reversed);
+                assert_eq!(leaving, Some(340.0), "{thin} {behind}");
+            }
+            content.enter(fluid(sign * 9.0, sign * (size + 1e-10), |_| 300.0), (1e-7, true));
+            assert_eq!(content.leaving(sign * (size + 0.01), reversed), Some(300.0), "{thin}");
+        }
+    }
+}
