@@ -137,7 +137,7 @@ impl Turns {
         let far = FURTHER * way;
         let ahead: Vec<f64> = now.iter().zip(rates).map(|(now, rate)| now + far * rate).collect();
         let least = NARROWEST / (far * fastest);
-        // the integrator chooses a step at the end of the one before, within what is left of its
+        // the integrator chooses a step at the end of the one before, within the rest of its
         // stop: a stop at twice the last step does not let it grow
         let grows = last > 0.0 && !self.counters.is_empty();
         let mut longest = if grows { far } else { way };
