@@ -218,7 +218,7 @@ impl Content {
     }
 
     /// Moves the first mark of a piece to the end of the one before it: the interpolation at the start
-    /// of a step is off by a rounding, and fluid before a jump would be that behind it.
+    /// of a step is off by a rounding, and fluid before a jump would be that after it.
     fn follow_on(&self, mark: &mut f64, forward: bool) {
         let end = match forward {
             true => self.pieces.back().map(|piece| piece.to),

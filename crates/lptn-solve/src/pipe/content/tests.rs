@@ -59,7 +59,7 @@ fn a_flow_that_is_not_even_does_not_move_marks() {
     }
 }
 
-/// A step that begins a rounding behind the content: fluid before the jump leaves up to it.
+/// A step that begins a rounding after the content: fluid before the jump leaves up to it.
 #[test]
 fn a_jump_is_at_the_end_of_the_fluid_before_it() {
     for rounding in [-1e-13, 0.0, 1e-13] {
