@@ -19,6 +19,9 @@ use crate::{FactorError, kernels};
 /// A pivot below this part of its diagonal entry is replaced by the entry.
 const LEAST_PIVOT: f64 = 1e-3;
 
+/// Sums of a row below this share of its diagonal are roundings.
+const ROUNDING: f64 = 1e-13;
+
 /// A matrix `S A S` in the order of a shape, with the `S` for which `D` is 1 everywhere.
 pub(super) struct Incomplete {
     pub(super) shape: Arc<Shape>,
@@ -29,7 +32,8 @@ pub(super) struct Incomplete {
     excess: Vec<f64>,
     scale: Vec<f64>,
     /// The square of a vector of ones in the energy norm: the sum of all entries of `A`. Rows count
-    /// as much as the median one at most, so that one huge capacity does not hide the others.
+    /// as much as the median one at most, so that one huge capacity does not hide the others. Rows
+    /// that add up to a rounding do not count: in a steady state, all cells inside a body.
     pub(super) whole: f64,
 }
 
@@ -108,7 +112,12 @@ impl Incomplete {
             self.scale[row] = scale;
             self.excess[row] = diagonal * scale * scale - 2.0;
         }
-        self.whole = typical_sum(&mut sums);
+        let own = |row: usize| values[diagonal[row] as usize];
+        let mut grounded: Vec<f64> = (0..sums.len())
+            .filter(|&row| sums[row] > ROUNDING * own(row))
+            .map(|r| sums[r])
+            .collect();
+        self.whole = typical_sum(&mut grounded);
         Ok(())
     }
 
