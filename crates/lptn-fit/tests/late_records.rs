@@ -1,6 +1,5 @@
 //! Records that begin after their run, and columns that begin after their record: a reading is the
-//! temperature of its own time. Expected values are the numbers from which closed forms made the
-//! records.
+//! temperature at the time of its row. The records are closed forms of known parameters.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 

@@ -192,7 +192,7 @@ fn smooth_errors_of_a_guess_are_corrected() {
 /// Most cells of a body in steady state have no path to ground: their rows add up to roundings.
 /// Iterations end all the same.
 #[test]
-fn cells_without_a_path_to_ground_are_no_reason_for_exact_factors() {
+fn cells_without_a_path_to_ground_need_no_exact_factors() {
     let (pattern, mut values) = cube(14, 0.0);
     let n = pattern.size();
     // conductances that are not binary fractions leave roundings

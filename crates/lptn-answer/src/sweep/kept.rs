@@ -106,7 +106,7 @@ impl KeptRows {
     /// The columns, in the order of the file.
     pub(super) fn columns<'s>(&'s self, asked: &SweepAsked) -> Vec<RowColumn<'s>> {
         let shape = asked.shape();
-        // without rows there are no columns yet
+        // before the first row, each column is empty
         let numbers = (0..asked.columns.len())
             .map(|place| Cells::Numbers(self.numbers.get(place).map_or(Cow::default(), Cow::from)));
         let words = |words: &'s [String]| Cells::Words(words.into());

@@ -93,8 +93,8 @@ pub(crate) fn settings(netlist: &Netlist) -> RunAnalysis {
     run.map_or_else(|| RunAnalysis::until(Time(1.0)), of).bare()
 }
 
-/// The run of a record. A reading is the temperature of its own time, so a run that begins at
-/// readings begins no earlier than they do.
+/// The run of a record. If nodes begin at their readings, it begins at the first row or later: a
+/// reading is the temperature at the time of its row.
 fn begin(settings: RunAnalysis, study: &FitStudy, record: &FitRecord) -> RunAnalysis {
     let (start, stop) = (settings.start(), settings.stop());
     match (study.initial, record.record.time.first()) {
